@@ -1,4 +1,4 @@
-"""From a wanted range to the transmitter power, under the models of a scenario."""
+"""Transmission power for a range, under the models of a scenario."""
 
 import math
 import re
@@ -23,44 +23,44 @@ if TYPE_CHECKING:
 
 CURVE_POINTS = 40
 CURVE_END = 2.0
-"""The curve goes on to so many times the range."""
+"""End of the curve, as a multiple of the range."""
 
 _LARGE_CHANGE = 0.02
-"""Of the share between two points of the fine curve, if it does not change at once."""
+"""Change of the ratio between two points that gets further points in between."""
 
 _AT_ONCE = 1e-9
-"""Relative difference of the distances of two points."""
+"""Relative difference of the distances of two points that counts as a step."""
 
 _NOTICED = 1.01
-"""So many times the power that would do without a limit is what makes the limit decide: 0.04 dB, which is far
-more than what powers are found to."""
+"""The sensitivity limits the range if it needs this many times the power: 0.04 dB, far more than the accuracy
+of powers."""
 
 
 @dataclass(frozen=True)
 class Calibration:
-    """The power for a range, and what it means.
+    """Power for a range, and the quantities that follow from it.
 
     Attributes:
-        sender: Name of the node that sends.
-        sender_interfaces: How many interfaces it has.
-        receiver: Name of the node that receives; the sender's, if another one like it does. With that of its
-            interface, `relay.wlan[1]`, unless it is the first one.
+        sender: Name of the sending node.
+        sender_interfaces: Number of its interfaces.
+        receiver: Name of the receiving node; the name of the sender, if the receiver is a copy of it.
+            With its interface, `relay.wlan[1]`, unless that is the first one.
         range_m: The wanted range.
-        ratio: Share of broadcast frames that are received at the range, more than 0 and less than 1.
+        ratio: Ratio of broadcast frames received at the range, > 0 and < 1.
         message_bytes: Length of the message in each frame.
-        tx_power_w: The least transmitter power that does.
-        bitrate_bps: Of broadcast frames.
-        frame_bytes: The message with all headers.
+        tx_power_w: Smallest sufficient transmission power.
+        bitrate_bps: Bitrate of broadcast frames.
+        frame_bytes: Length of the message with all headers.
         snr_at_range: Mean received power over noise at the range, a linear ratio; infinite without noise.
-        deciding_sensitivity_w: The receiver's sensitivity if it asks for more power than the noise and than
-            preamble detection, or None.
-        curve: Distances in m with the share received there, from 0 to 1.
+        deciding_sensitivity_w: The receiver's sensitivity if it needs more power than noise and preamble
+            detection do; otherwise None.
+        curve: Distances in m with the ratio received there, from 0 to 1.
         sender_interface: Index of the interface that sends.
-        obstacles_left_out: How many obstacles take power from frames in a run; here none does.
-        deciding_preamble_w: The least power of the receiver's preamble detection if it asks for more than the
-            noise and than the sensitivity, or None.
-        fine_curve: The curve with more points where it is steep, and two where it has a step, as where the
-            power falls below the sensitivity.
+        obstacles_left_out: Number of obstacles that attenuate frames in a run. Calibration ignores them.
+        deciding_preamble_w: The smallest power of the receiver's preamble detection if it needs more
+            power than noise and sensitivity do; otherwise None.
+        fine_curve: The curve with more points where it is steep, and two points at a step; for example, where
+            the power falls below the sensitivity.
     """
 
     sender: str
@@ -90,25 +90,25 @@ def calibrate(
     sender: str | None = None,
     receiver: str | None = None,
 ) -> Calibration:
-    """Find the transmitter power with which the share `ratio` of broadcast frames is received at `range_m`.
+    """Find the transmission power with which the ratio `ratio` of broadcast frames is received at `range_m`.
 
-    Nobody else sends meanwhile; antennas look at each other, nothing is in between.
+    Other nodes do not send. Antennas point at each other, and nothing is in between.
 
     Args:
         scenario: The radios and the medium.
         range_m: Distance between the two nodes, > 0.
-        ratio: More than 0 and less than 1.
-        message_bytes: Length of the message in each frame, from 0 to what the MTU leaves.
+        ratio: > 0 and < 1.
+        message_bytes: Length of the message in each frame, from 0 to the limit of the MTU.
         sender: Name of a node, or of its interface, `relay.wlan[1]`, by default wlan[0]; None for the first
             node.
-        receiver: The same; None for another one like the sender.
+        receiver: The same; None for a copy of the sender.
 
     Raises:
-        ConfigError: A name or a value is wrong, the medium has no powers, or no power would do.
-        TypeError: What is to be a number or a name is none.
+        ConfigError: A name or a value is not valid, the medium has no powers, or no power is sufficient.
+        TypeError: A number or a name has a wrong type.
     """
     for argument, value, kind, expected in (
-        ("range_m", range_m, Real, "a number of metres"),
+        ("range_m", range_m, Real, "a number of meters"),
         ("ratio", ratio, Real, "a number"),
         ("message_bytes", message_bytes, Integral, "an integer"),
         ("sender", sender, str | None, "the name of a node or interface"),
@@ -175,7 +175,7 @@ def calibrate(
 def _refined(
     curve: Iterable[tuple[float, float]], ratio_at: Callable[[float], float]
 ) -> Iterator[tuple[float, float]]:
-    """Yield the points of a curve, with more in between where the share changes much."""
+    """Yield the points of a curve, with further points where the ratio changes much."""
     open_ends = list(curve)[::-1]
     near = open_ends.pop()
     yield near
@@ -198,7 +198,7 @@ def _deciding_levels_w(
     ratio: float,
     power_w: float,
 ) -> tuple[float | None, float | None]:
-    """The receiver's sensitivity or least power for preambles if less would do without both."""
+    """Return the receiver's sensitivity or smallest preamble power, if it limits the range; else None."""
     unlimited = node_config(receiver)
     radio = unlimited.wlan[0].radio
     sensitivity_w = radio.sensitivity_w
@@ -212,7 +212,7 @@ def _deciding_levels_w(
 
 
 def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, message_bytes: int) -> "LinkBudget":
-    """Return the chances of a message from one node to another. Raises ConfigError."""
+    """Return the probabilities of a reception from one node to another. Raises ConfigError."""
     with errors_at(node_settings(sender, 0, scenario.medium)):
         budget: LinkBudget = load_netsim().LinkBudget(
             medium_config(scenario), node_config(sender), node_config(receiver), message_bytes
@@ -221,7 +221,7 @@ def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, messag
 
 
 def _interface_named(nodes: Sequence[NodeSpec], name: str | None, role: str) -> tuple[NodeSpec, int]:
-    """The node and the index of its interface: `relay` is `relay.wlan[0]`."""
+    """Return the node and the index of its interface: `relay` is `relay.wlan[0]`."""
     if name is None:
         return nodes[0], 0
     match = re.fullmatch(r"(.*)\.wlan\[(\d{1,3})\]", name, re.ASCII)

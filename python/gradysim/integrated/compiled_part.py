@@ -4,11 +4,11 @@ from types import ModuleType
 
 
 class CompiledPartMissingError(ImportError):
-    """The engine has not been built for this Python; prototype mode works without it."""
+    """The engine is not built for this Python. Prototype mode works without it."""
 
 
 def load_netsim() -> ModuleType:
-    """Return `gradysim._netsim`. Raises CompiledPartMissingError, which says how to get it."""
+    """Return `gradysim._netsim`. CompiledPartMissingError says how to build it."""
     try:
         from gradysim import _netsim
     except ImportError as reason:

@@ -1,7 +1,7 @@
-"""Errors of the engine in the terms of an .ini file: its line, its keys and the units that people write.
+"""Errors of the engine in the terms of an .ini file: line, key and unit.
 
-The engine says which field is wrong, its value, and what was expected, as data. Who wrote the file knows
-radio.energy_detection_w as energyDetection, and 3.16e-12 W as -85dBm.
+The engine reports field, value and expectation as data. An .ini file has `energyDetection` for
+radio.energy_detection_w, and -85dBm for 3.16e-12 W.
 """
 
 import os
@@ -35,10 +35,10 @@ _STEPS = {
 
 
 class EngineError(ConfigError):
-    """A mistake that the engine has found.
+    """An error found by the engine.
 
     Attributes:
-        target: The field that it is about, "radio.carrier_hz", as keys have it; "" if it is about none.
+        target: The field, "radio.carrier_hz", as in the declarations of keys; "" if there is none.
     """
 
     target: str = ""
@@ -48,8 +48,8 @@ class EngineError(ConfigError):
 def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
     """Turn an error of the engine into an EngineError at the line that causes it.
 
-    `settings` are those that the engine was given, by the targets of their keys: "radio.tx_power_w". If the
-    field has its default, the place is the line of the setting that the default does not go with.
+    `settings` are the settings given to the engine, by the targets of their keys: "radio.tx_power_w". If the
+    field has its default, the error points to the setting that conflicts with the default.
     """
     try:
         yield
@@ -58,7 +58,7 @@ def errors_at(settings: Mapping[str, Setting]) -> Iterator[None]:
 
 
 def text_of(error: "_netsim.ConfigError") -> str:
-    """Return the message of an error that is about no line, in the terms of an .ini file."""
+    """Return the message of an error without a line, in the terms of an .ini file."""
     return _text(error.message, None, error.interface)
 
 
@@ -91,7 +91,7 @@ def _engine_error(error: "_netsim.ConfigError", settings: Mapping[str, Setting])
 
 
 def _text(parts: Sequence["MessagePart"], key: Key | None, interface: int | None) -> str:
-    """A message of the engine; its quantities are those of the field of `key`."""
+    """Return a message of the engine. Quantities have the unit of the field of `key`."""
 
     def text(part: "MessagePart") -> str:
         match part:
@@ -106,7 +106,7 @@ def _text(parts: Sequence["MessagePart"], key: Key | None, interface: int | None
 
 
 def _name(target: str, interface: int | None) -> str:
-    """How an .ini file calls a field; the engine's name if no key sets it."""
+    """Return the .ini file's name of a field; the engine's name if no key sets it."""
     key = _keys_by_target().get(target)
     if key is None:
         return target
@@ -130,12 +130,12 @@ def _quantity(value: float, unit: str, key: Key | None) -> str:
 
 @cache
 def _keys_by_target() -> Mapping[str, Key]:
-    """The key of each field. Of several, the last one has the field's own unit."""
+    """Return the key of each field. Of several keys, the last one has the field's own unit."""
     return {key.target: key for key in (*NETWORK_KEYS, *NODE_KEYS)}
 
 
 def _for(target: str, name: str, place: Setting | None) -> str:
-    """Which parameter the value is for, if the line leaves a part of its name to wildcards; else ""."""
+    """Return the parameter of the value if the line has wildcards for a part of its name; else ""."""
     if place is None or "*" not in (line := place.source.key):
         return ""
     paths = [key.path for key in NODE_KEYS if key.target == target]
@@ -145,9 +145,9 @@ def _for(target: str, name: str, place: Setting | None) -> str:
 
 
 def _file_meant(key: Key | None, setting: Setting) -> str:
-    """A hint at a similar file beside a missing one; "" for any other setting."""
+    """Return a hint at a similar file if the file is missing; else ""."""
     file = Path(str(setting.value))
-    if key is None or not key.kind.is_file or os.path.exists(file):  # False of what no file can be called
+    if key is None or not key.kind.is_file or os.path.exists(file):  # False if the name cannot be a file's
         return ""
     written = setting.source.value.strip('"')
     match = nearest_file(file, (".csv", ".txt"), written if written.endswith(file.name) else "")
@@ -155,7 +155,7 @@ def _file_meant(key: Key | None, setting: Setting) -> str:
 
 
 def _cause(error: "_netsim.ConfigError", settings: Mapping[str, Setting]) -> str:
-    """The setting to blame: of the field itself, or of what decides about it, the likeliest first."""
+    """Return the setting that caused the error: of the field itself, or the likeliest of related fields."""
     named = [part[0] for part in error.message if isinstance(part, tuple) and len(part) == 1]
     if not error.field:
         return next((target for target in named if target in settings), "")
@@ -168,7 +168,7 @@ def _cause(error: "_netsim.ConfigError", settings: Mapping[str, Setting]) -> str
 
 
 def _is_read(target: str, settings: Mapping[str, Setting]) -> bool:
-    """Whether the model is chosen that reads the setting."""
+    """Return whether the model that reads the setting is chosen."""
     key = _keys_by_target().get(target)
     if key is None or key.read_by is None:
         return True

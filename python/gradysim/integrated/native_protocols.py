@@ -15,20 +15,20 @@ if TYPE_CHECKING:
 
 
 def is_native(spec: NodeSpec) -> bool:
-    """Whether the engine has the node's protocol itself."""
+    """Return whether the node's protocol is one of the engine's."""
     return issubclass(spec.protocol, NativeProtocol)
 
 
 def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
-    """Give `node` the native protocol of `spec`, when all nodes are there.
+    """Give `node` the native protocol of `spec`, after all nodes have been created.
 
-    Raises ConfigError, with the place in the .ini file, when a parameter is outside its range, or is one that
-    this node cannot have in this network.
+    Raises ConfigError, with the place in the .ini file, if a parameter is outside its range, or is not valid
+    for this node in this network.
     """
     values = cast("Mapping[str, bool | int | float]", spec.protocol_parameters)
     settings = {
         f"protocol.{name}": Setting(values.get(name, ""), source)
-        for name, source in spec.protocol_sources.items()  # under "" what chose the protocol
+        for name, source in spec.protocol_sources.items()  # under "": the line that chose the protocol
     }
     with errors_at({**settings_by_target("mobility", spec.mobility), **settings}):
         node.set_native_protocol(spec.protocol.__name__, values)
@@ -36,11 +36,12 @@ def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
 
 
 class NativeView:
-    """What handlers see of a node with a native protocol, where others have an encapsulator.
+    """A node's native protocol as handlers see it, instead of an encapsulator.
 
     Attributes:
-        provider: Knows the tracked variables, the id and the time.
-        protocol: An instance of the class in the scenario: it shows the parameters, and does nothing.
+        provider: Gives the tracked variables, the id and the time.
+        protocol: An instance of the class in the scenario: it has the parameters, and its callbacks do
+            nothing.
     """
 
     def __init__(self, node: "_netsim.Node", spec: NodeSpec) -> None:
@@ -50,14 +51,14 @@ class NativeView:
 
 
 class NativeProvider:
-    """What can be asked of the node of a native protocol from outside."""
+    """Provider of a native protocol, for handlers."""
 
     def __init__(self, node: "_netsim.Node") -> None:
         self._node = node
 
     @property
     def tracked_variables(self) -> dict[str, Any]:
-        """What the protocol tracks now."""
+        """The current tracked variables."""
         return dict(self._node.tracked_variables)
 
     def current_time(self) -> float:

@@ -1,7 +1,7 @@
 """A scenario as a network of the compiled engine.
 
-The settings of the scenario have the names of the fields of the engine's passive structs, so they are set
-one by one; what the engine's own check then finds wrong is reported where the .ini file says it.
+Settings of the scenario have the names of the fields of the engine's structs. They are set one by one. An
+error of the engine's validation is reported at its line of the .ini file.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     """Return the network of `scenario` and its nodes in the order of their ids, without protocols in Python.
 
-    Raises ConfigError, with the place in the .ini file, when values are outside the engine's range.
+    Raises ConfigError, with the place in the .ini file, if a value is outside the engine's range.
     """
     try:
         return _built(scenario)
@@ -49,7 +49,7 @@ def _built(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
 
 
 def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:
-    """Return the errors of the medium and of one node of each kind together with the first error."""
+    """Return the errors of the medium and of one node of each kind, together with the first error."""
     errors = ErrorCollector()
     errors.add(first)
     network: Network | None = None
@@ -67,9 +67,9 @@ def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:
 
 
 def by_kind(nodes: Iterable[NodeSpec]) -> Mapping[object, Sequence[NodeSpec]]:
-    """Group nodes: those with the same lines in force share their mappings.
+    """Group nodes by their settings. Nodes with the same effective lines share their mappings.
 
-    What is true of one of them is true of all.
+    A result for one node of a group holds for all.
     """
     kinds: dict[object, list[NodeSpec]] = {}
     for spec in nodes:
@@ -84,9 +84,9 @@ def one_of_each_kind(nodes: Iterable[NodeSpec]) -> Iterable[NodeSpec]:
 
 
 def check_scenario(scenario: Scenario) -> None:
-    """Raise ConfigError, with the place in the .ini file, when a value is outside the engine's range.
+    """Raise ConfigError, with the place in the .ini file, if a value is outside the engine's range.
 
-    Building the network does the same check; this is for who wants to know before other runs are run.
+    Building the network makes the same checks. Use this function to check a study before its first run.
     """
     build_network(scenario)
     check_autopilots(scenario)
@@ -95,7 +95,7 @@ def check_scenario(scenario: Scenario) -> None:
 def add_node(
     network: "Network", spec: NodeSpec, powers: PowersForRanges, medium: Mapping[str, Setting]
 ) -> "Node":
-    """Add one node to `network`; what only the whole configuration shows to be wrong is found now."""
+    """Add one node to `network`. Raise the errors that depend on the whole configuration."""
     config = node_config(spec)
     with node_errors_at(spec, medium):
         powers.set_powers(config, spec)
@@ -103,7 +103,7 @@ def add_node(
 
 
 def medium_config(scenario: Scenario) -> "MediumConfig":
-    """Return the checked configuration of the medium, whose type sets the defaults of its other fields."""
+    """Return the validated configuration of the medium. Its type sets the defaults of its other fields."""
     netsim = load_netsim()
     settings = dict(scenario.medium)
     chosen = settings.pop("typename", None)
@@ -116,7 +116,7 @@ def medium_config(scenario: Scenario) -> "MediumConfig":
 
 
 def _obstacle_configs(scenario: Scenario) -> "list[ObstacleConfig]":
-    """Return the checked configurations of all obstacles. Raises ConfigError for all that are wrong."""
+    """Return the validated configurations of all obstacles. ConfigError names all invalid ones."""
     errors = ErrorCollector()
     configs = []
     for spec in scenario.obstacles:
@@ -127,7 +127,7 @@ def _obstacle_configs(scenario: Scenario) -> "list[ObstacleConfig]":
 
 
 def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
-    """Return the checked configuration of one obstacle."""
+    """Return the validated configuration of one obstacle."""
     netsim = load_netsim()
     config: ObstacleConfig = netsim.ObstacleConfig()
     config.name = spec.name
@@ -147,7 +147,7 @@ def obstacle_config(spec: ObstacleSpec) -> "ObstacleConfig":
 
 
 def node_config(spec: NodeSpec) -> "NodeConfig":
-    """Return the checked configuration of one node, whose interfaces set the defaults of their radios."""
+    """Return the validated configuration of one node. Its interfaces set the defaults of their radios."""
     config: NodeConfig = load_netsim().NodeConfig(spec.name, [_typename(wlan) for wlan in spec.wlan])
     for interface, wlan in zip(config.wlan, spec.wlan, strict=True):
         set_fields(interface.radio, wlan.radio)
@@ -177,7 +177,7 @@ def node_errors_at(spec: NodeSpec, medium: Mapping[str, Setting]) -> Iterator[No
 
 
 def node_settings(spec: NodeSpec, interface: int, medium: Mapping[str, Setting]) -> dict[str, Setting]:
-    """Return what was set for one interface of a node, and for all that is around it, by target."""
+    """Return the settings of one interface of a node and of its context, by target."""
     settings = settings_by_target("medium", medium)
     settings |= settings_by_target("node", spec.node) | settings_by_target("mobility", spec.mobility)
     for struct, fields in spec.wlan[interface].structs().items():

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 Chosen = Callable[[str], str | None]
 """Maps the target of a key that chooses a model to the model, written or by default.
 
-None if the file says that there is none, by `typename = ""`. The parameters of that model are not reported.
+None if the file chooses none, by `typename = ""`. The parameters of that model are not reported.
 """
 
 KEYS = {key.target: key for key in (*NODE_KEYS, *NETWORK_KEYS, *OF_802154.values())}
@@ -31,7 +31,7 @@ KEYS = {key.target: key for key in (*NODE_KEYS, *NETWORK_KEYS, *OF_802154.values
 _CHOOSERS_OF_THE_NETWORK = frozenset(key.target for key in NETWORK_KEYS)
 
 _MOST_LINES = 4
-"""Lines that a message lists beside its own."""
+"""Largest number of lines that a message lists in addition to its own."""
 
 _FARTHEST_FLIGHT_M = 100e3
 """Obstacles farther from all nodes than this have no use."""
@@ -86,7 +86,7 @@ class UnreadLines:
         self._unread: dict[Source, _Unread] = {}
 
     def add(self, sources: Mapping[str, Source], chosen: Chosen, node: str = "") -> None:
-        """Add the lines in force for one node, or for the network, by the targets of their keys.
+        """Add the effective lines for one node, or for the network, by the targets of their keys.
 
         `node` is the node, or its group, as .ini files write it: "uavs[*]".
         """
@@ -183,7 +183,10 @@ def _nodes_on_the_ground(scenario: Scenario, medium: "MediumConfig") -> Iterator
 
 
 def _obstacles_far_from_all_nodes(scenario: Scenario) -> Iterator[Finding]:
-    """Yield a finding for a scene that is somewhere else, as when longitude and latitude are exchanged."""
+    """Yield a finding if the scene is far from the nodes.
+
+    For example, with longitude and latitude exchanged.
+    """
     corners = [corner for obstacle in scenario.obstacles for ring in obstacle.rings for corner in ring]
     if not corners or not scenario.nodes:
         return
@@ -202,7 +205,7 @@ def _obstacles_far_from_all_nodes(scenario: Scenario) -> Iterator[Finding]:
 
 
 class _Band(NamedTuple):
-    """The band that a radio sends and listens in."""
+    """Frequency band of a radio."""
 
     carrier_hz: float
     bandwidth_hz: float
@@ -292,7 +295,7 @@ def _sources_of_channels(wlans: Iterable[InterfaceSpec]) -> Iterator[Source]:
 
 
 def _acks_that_come_too_late(scenario: Scenario) -> Iterator[Finding]:
-    """Yield settings of 802.15.4 by which a sender gives up before an ACK can have ended."""
+    """Yield settings of 802.15.4 with which a sender gives up before an ACK can end."""
     found: set[Source] = set()
     for spec in one_of_each_kind(scenario.nodes):
         for interface, wlan in zip(node_config(spec).wlan, spec.wlan, strict=True):

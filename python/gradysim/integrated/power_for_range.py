@@ -1,4 +1,4 @@
-"""Transmitter powers of interfaces that were given a range instead."""
+"""Transmission powers of interfaces that have a range instead."""
 
 from typing import TYPE_CHECKING
 
@@ -14,26 +14,29 @@ if TYPE_CHECKING:
 
 RATIO = 0.5
 MESSAGE_BYTES = 50
-"""What a range means if nothing else is said: half of the broadcast messages of that length arrive."""
+"""Meaning of a range without further settings: half of the broadcast messages of this length arrive."""
 
 _LEAST_MTU_BYTES = MESSAGE_BYTES + 28
 """With the headers of IPv4 and UDP."""
 
 
 class PowersForRanges:
-    """Works out each power once, however many nodes have it; what `gradysim calibrate` prints."""
+    """Computes each power once, for all nodes that have it.
+
+    It is the power that `gradysim calibrate` prints.
+    """
 
     def __init__(self, medium: "MediumConfig") -> None:
-        """For nodes in that medium."""
+        """Compute powers in this medium."""
         self._medium = medium
         self._has_powers = has_radios(medium.typename)
         self._known: dict[object, float] = {}
 
     def set_powers(self, config: "NodeConfig", spec: NodeSpec) -> None:
-        """Set the powers with which a node like this one, at the same height, is at the end of the range.
+        """Set the powers with which a copy of this node, at the same height, is at the end of the range.
 
-        Those of the interfaces that were given a range. On a medium where the range itself counts, nothing is
-        set. Raises ConfigError, at the line of the range, if no power would do.
+        Only for interfaces that have a range. A medium that uses the range itself needs no powers. Raises
+        ConfigError, at the line of the range, if no power is sufficient.
         """
         if not self._has_powers:
             return
@@ -43,7 +46,7 @@ class PowersForRanges:
 
     def _power_w(self, config: "NodeConfig", spec: NodeSpec, index: int) -> float:
         wlan = spec.wlan[index]
-        # Interfaces with the same lines in force share their specification.
+        # Interfaces with the same effective lines share their specification.
         key = (id(wlan), config.initial_position[2])
         power_w = self._known.get(key)
         if power_w is None:

@@ -5,11 +5,11 @@ from collections.abc import Callable
 from gradysim.simulator.real_time import RealTimePacer
 
 TURN_S = 0.01
-"""Wall time between two readings of the clock, in seconds: events are up to this late, and never early."""
+"""Wall time between two readings of the clock, in seconds. Events are up to this late, and never early."""
 
 
 class RealTimeRun:
-    """Runs the events that are due, and waits; for `run_in_chunks`."""
+    """Runs the events that are due, then waits; for `run_in_chunks`."""
 
     def __init__(
         self,

@@ -17,21 +17,21 @@ if TYPE_CHECKING:
 
 _FARTHEST_M = 1e6
 _STEPS = 40
-"""Halvings of a distance: more digits than a circle on a page shows."""
+"""Bisections of a distance: more digits than a circle on a page shows."""
 
 
 _LARGE = 1 << 53
 """Integers below are floats, too."""
 
 VariableListener: TypeAlias = Callable[[str, Any], None]
-"""Is told the name and the new value of a tracked variable, None if it was removed."""
+"""Takes the name and the new value of a tracked variable; the value is None if it was removed."""
 
 
 class EngineRecorder:
-    """The engine's recorder, with the values of Python."""
+    """The engine's recorder, for values of Python."""
 
     def __init__(self, network: "Network", scenario: Scenario, recorded: frozenset[int]) -> None:
-        """Begin to record; `recorded` are ids of nodes, at which all is recorded."""
+        """Start to record; `recorded` are ids of nodes that are recorded in full."""
         self._recorded = recorded
         self._recorder = network.record(sorted(self._recorded))
         for node in scenario.nodes:
@@ -64,7 +64,7 @@ class EngineRecorder:
         self._recorder.event(node_id, kind, _utf8(text))
 
     def chunks(self, *, cut: bool, last: bool) -> Iterator[RawChunk]:
-        """Give the chunks that are complete; `cut` ends the one that grows, `last` the record."""
+        """Return the complete chunks; `cut` ends the current one, `last` the record."""
         if last:
             self._recorder.finish()
         elif cut:
@@ -74,14 +74,14 @@ class EngineRecorder:
 
 
 def _utf8(text: str) -> str:
-    """Return a text without what UTF-8 cannot hold."""
+    """Return a string without characters that UTF-8 cannot encode."""
     return text.encode(errors="replace").decode()
 
 
 def ranges_m(scenario: Scenario) -> list[float | None]:
-    """Return the distance in meters at which half of the messages of each node arrive, without others.
+    """Return the distance (m) at which half of the messages of each node arrive, without other senders.
 
-    Between nodes like this one, over wlan[0]. None where the engine cannot tell.
+    Between nodes like this one, over wlan[0]. None if the engine cannot compute it.
     """
     medium = medium_config(scenario)
     powers = PowersForRanges(medium)
@@ -104,7 +104,7 @@ def _range_m(medium: "MediumConfig", config: "NodeConfig") -> float | None:
     netsim = load_netsim()
     try:
         budget = netsim.LinkBudget(medium, config, config, MESSAGE_BYTES, 0)
-    except netsim.ConfigError:  # such a message does not fit into a frame
+    except netsim.ConfigError:  # the message does not fit into a frame
         return None
     power_w = config.wlan[0].radio.tx_power_w
     near_m, far_m = 0.0, _FARTHEST_M

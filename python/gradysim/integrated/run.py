@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 class IntegratedRun(ScenarioRun):
     """A scenario on the compiled engine: built by the constructor, run once by `execute`.
 
-    What a native protocol does wrong raises NativeProtocolError from `execute`. A capture file that could not
+    Errors of a native protocol raise NativeProtocolError from `execute`. A capture file that could not
     be completed raises CaptureError after all else is done, or adds a note to an earlier exception.
     """
 
@@ -73,7 +73,7 @@ class IntegratedRun(ScenarioRun):
 
         Args:
             scenario: One of those that `load_scenarios` returns.
-            captures: {id of a node: pcap file of what it sends and receives}. `wlan[1]` of a node with
+            captures: {id of a node: pcap file of its sent and received frames}. `wlan[1]` of a node with
                 FILE.pcap writes FILE-wlan1.pcap. The files are complete when `execute` returns or raises.
             fates_at: Ids of the nodes whose results have outcomes and interferers:
                 `NodeResult.frame_fates`, `interferers` and `message_fates`. They do not change or slow the
@@ -84,7 +84,7 @@ class IntegratedRun(ScenarioRun):
                 frame: then the run is slow. Other handlers do not slow it.
             real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed. For
                 viewers: events are up to 10 ms of wall time late.
-            replay: Takes what happens, such as `ReplayWriter`, which makes a page of it.
+            replay: Records the run; for example, `ReplayWriter`, which makes a page of it.
             log_level: Log lines from this level on go to standard error, with time and node, unless logging
                 has been configured.
 
@@ -148,7 +148,7 @@ class IntegratedRun(ScenarioRun):
             self._handlers.register_node(node, encapsulator, scenario.seed)
 
     def _variable_listener(self, node: "Node") -> VariableListener | None:
-        """Return what records the tracked variables of a node; None if nobody wants them."""
+        """Return the recorder of a node's tracked variables; None if they are not used."""
         vectors = self._recorders.get(node.id)
         replay = None if self._recorder is None else self._recorder.variable_listener(node.id)
         if vectors is None:
@@ -207,7 +207,7 @@ class IntegratedRun(ScenarioRun):
         self._handlers.finalize(complete=self._complete)
 
     def _native_failure(self, failure: "ProtocolError") -> NativeProtocolError:
-        """Return the error of a native protocol, with the note that one in Python has."""
+        """Return the error of a native protocol, with the note that errors in Python get."""
         error = NativeProtocolError(str(failure))
         add_protocol_note(
             error,
@@ -241,7 +241,7 @@ class IntegratedRun(ScenarioRun):
             yield measured
 
     def _outcomes_at(self, node_id: int) -> Mapping[str, Any]:
-        """Return the counts at one node. Only where asked for: at thousands of nodes they take long."""
+        """Return the counts at one node. Only on request, since they take long for thousands of nodes."""
         network, specs = self._network, self._scenario.nodes
         return {
             "frame_fates": _without_zeros(network.frame_fates_at(node_id)),

@@ -1,4 +1,4 @@
-"""Nodes at z = 0m under a two-ray model: both rays cancel there, so that next to nothing is heard."""
+"""Hint for nodes at z = 0m under a two-ray model: both rays cancel there, so almost nothing is received."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -13,7 +13,7 @@ _TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
 
 
 def ground_hint(medium: "MediumConfig", nodes: Sequence[NodeSpec]) -> str:
-    """Return what to do about those of `nodes` that start on the ground, or "" if nothing is to be done."""
+    """Return advice for those of `nodes` that start on the ground, or ""."""
     low = [node.name for node in nodes if node.initial_position[2] == 0]
     if not has_radios(medium.typename) or medium.path_loss not in _TWO_RAY or not low:
         return ""
