@@ -1,6 +1,6 @@
 // The beacon scenario of configs/reference/beacons.ini for ns-3, to compare the time that it takes.
 //
-//     beacons_ns3 NODES < POSITIONS      positions as lines "x y" in metres
+//     beacons_ns3 NODES < POSITIONS      positions as lines "x y" in meters
 //
 // Nodes stand in a square of 1 km and broadcast 100 B once a second, at a random phase, from 1 s
 // until 60.9 s: 802.11g at 24 Mbps, 2 mW, free space. What else there is to choose is ns-3's

@@ -49,7 +49,7 @@ def exchanges(run: ObservedRun) -> int:
 
 
 def nearest_m(run: ObservedRun) -> float:
-    """Return the metres from a UAV to the nearest other one, the mean over the second half of the run."""
+    """Return the meters from a UAV to the nearest other one, the mean over the second half of the run."""
     return fmean(sample.nearest_m for sample in run.samples[len(run.samples) // 2 :])
 
 

@@ -88,7 +88,7 @@ def toy_copter(tmp_path: Path) -> Callable[..., Path]:
     program.chmod(program.stat().st_mode | stat.S_IXUSR)
 
     def with_wrongs(wrongs: dict[int, Any] | None = None) -> Path:
-        (folder / "misbehaviour.json").write_text(json.dumps(wrongs or {}))
+        (folder / "misbehavior.json").write_text(json.dumps(wrongs or {}))
         return program
 
     return with_wrongs

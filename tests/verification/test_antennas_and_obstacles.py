@@ -186,9 +186,9 @@ def draw(path: Path) -> None:
 
     def patterns(axes: "Axes") -> None:
         names = ("short dipole", "half-wave dipole", "full-wave dipole", "cosine, 60°", "parabolic, 60°")
-        colours = (OURS, "#5fa8d3", "#9ad1d4", INET, MODEL)
+        colors = (OURS, "#5fa8d3", "#9ad1d4", INET, MODEL)
         reach = 0.0
-        for (typename, fields), name, colour in zip(ANTENNAS, names, colours, strict=True):
+        for (typename, fields), name, color in zip(ANTENNAS, names, colors, strict=True):
             gain = engine_pattern(typename, fields)
             # As a polar plot: the radius is the gain in decibels above -25 dB.
             radii = [max(10 * log10(max(gain(radians(angle)), 1e-9)) + 25, 0) for angle in degrees]
@@ -196,7 +196,7 @@ def draw(path: Path) -> None:
             axes.plot(
                 [radius * cos(radians(angle)) for radius, angle in zip(radii, degrees, strict=True)],
                 [radius * sin(radians(angle)) for radius, angle in zip(radii, degrees, strict=True)],
-                color=colour,
+                color=color,
                 lw=1.2,
                 label=name,
             )

@@ -85,18 +85,18 @@ def draw(path: Path) -> None:
     from verification.figure import INET, MODEL, OURS, save
 
     def totals(axes: "Axes") -> None:
-        for nodes, colour, marker in ((50, INET, "o"), (100, OURS, "x")):
+        for nodes, color, marker in ((50, INET, "o"), (100, OURS, "x")):
             ours, theirs = zip(*counts(nodes), strict=True)
-            axes.plot(theirs, ours, marker, color=colour, ms=4, mfc="none", label=f"{nodes} nodes")
+            axes.plot(theirs, ours, marker, color=color, ms=4, mfc="none", label=f"{nodes} nodes")
         axes.axline((0, 0), slope=1, color=MODEL, lw=0.8)
         axes.set(xlabel="received by a node, INET (frames)", ylabel="received by a node, gradysim (frames)")
         axes.legend(fontsize=7.5)
 
     def differences(axes: "Axes") -> None:
-        for nodes, colour, marker in ((50, INET, "o"), (100, OURS, "x")):
+        for nodes, color, marker in ((50, INET, "o"), (100, OURS, "x")):
             theirs = [pair[1] for pair in counts(nodes)]
             off = [100 * relative(*pair) for pair in counts(nodes)]
-            axes.plot(theirs, off, marker, color=colour, ms=4, mfc="none", label=f"{nodes} nodes")
+            axes.plot(theirs, off, marker, color=color, ms=4, mfc="none", label=f"{nodes} nodes")
         axes.axhspan(-2, 2, color=MODEL, alpha=0.1, lw=0)
         axes.set(xlabel="received by a node, INET (frames)", ylabel="difference (%)", ylim=(-3, 3))
         axes.legend(fontsize=7.5)

@@ -119,10 +119,10 @@ def draw(path: Path) -> None:
             columns = {"INET 4.5": (INET, sample.inet), "gradysim": (OURS, sample.ours)}
             if window in CROWDED:
                 columns["standard's\nEIFS"] = (MODEL, samples(window, column, STANDARD_EIFS).ours)
-            for index, (colour, values) in enumerate(columns.values()):
+            for index, (color, values) in enumerate(columns.values()):
                 # Side by side in the order of the seeds; a bar for mean and standard error.
                 places = [index + 0.6 * (k + 0.5) / len(values) - 0.3 for k in range(len(values))]
-                axes.plot(places, values, "o", color=colour, ms=3, mfc="none", alpha=0.7)
+                axes.plot(places, values, "o", color=color, ms=3, mfc="none", alpha=0.7)
                 axes.errorbar(
                     index,
                     fmean(values),

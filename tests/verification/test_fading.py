@@ -173,7 +173,7 @@ def draw_correlation(path: Path) -> None:
 
     def course(axes: "Axes") -> None:
         times = [step / 50 for step in range(501)]
-        for path_loss, label, colour in (
+        for path_loss, label, color in (
             ("RayleighFading", "Rayleigh", OURS),
             ("RicianFading", "Rician, K = 8 dB", MODEL),
         ):
@@ -181,7 +181,7 @@ def draw_correlation(path: Path) -> None:
             axes.plot(
                 times,
                 [10 * log10(gain(1, time * COHERENCE_TIME_S, 0)) for time in times],
-                color=colour,
+                color=color,
                 lw=1,
                 label=label,
             )

@@ -102,10 +102,10 @@ def draw(path: Path) -> None:
                 "gradysim, INET's window": (OURS, ours),
                 "gradysim": (MODEL, by_default),
             }
-            for index, (label, (colour, counts_of)) in enumerate(bars.items()):
+            for index, (label, (color, counts_of)) in enumerate(bars.items()):
                 places = [place + 0.27 * (index - 1) for place in range(len(configs))]
                 heights = [mbps(config, counts_of(config, "received")) for config in configs]
-                axes.bar(places, heights, 0.25, color=colour, label=label)
+                axes.bar(places, heights, 0.25, color=color, label=label)
             names = [f"{place}{rts}" for place in ("in hearing", "hidden") for rts in ("", "\nRTS/CTS")]
             axes.set_xticks(range(len(configs)), names)
             axes.set_ylabel("throughput (Mbps of payload)")

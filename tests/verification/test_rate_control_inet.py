@@ -142,13 +142,13 @@ def draw(path: Path) -> None:
     def by_default(axes: "Axes") -> None:
         for config, line in zip(BY_DEFAULT, ("-", "--"), strict=True):
             distances = distances_m(config)
-            for label, colour, counts_of in (("INET 4.5", INET, inet), ("gradysim", OURS, ours)):
+            for label, color, counts_of in (("INET 4.5", INET, inet), ("gradysim", OURS, ours)):
                 mbps = [
                     fmean(counts_of(config, distance, "received")) * PAYLOAD_BITS / BY_DEFAULT_S / 1e6
                     for distance in distances
                 ]
                 axes.plot(
-                    range(len(distances)), mbps, f"{line}o", color=colour, ms=4, label=f"{label}, {config}"
+                    range(len(distances)), mbps, f"{line}o", color=color, ms=4, label=f"{label}, {config}"
                 )
             axes.set_xticks(range(len(distances)), [f"{distance} m" for distance in distances])
         axes.set_ylabel("throughput (Mbps of payload)")

@@ -83,7 +83,7 @@ def closed_form(
 
 
 def distance_of(share: float, rate_mbps: float) -> float:
-    """Where that share is received, in metres to the millimetre."""
+    """Where that share is received, in meters to the millimetre."""
     near, far = 1.0, 1e6
     for _ in range(100):
         middle = sqrt(near * far)
@@ -197,17 +197,17 @@ def draw_rates(path: Path, curves: dict[float, list[Point]]) -> None:
     def draw(rates: tuple[float, ...], title: str) -> "Callable[[Axes], None]":
         def panel(axes: "Axes") -> None:
             for index, rate in enumerate(rates):
-                colour = colormaps["viridis"](0.9 * index / (len(rates) - 1))
+                color = colormaps["viridis"](0.9 * index / (len(rates) - 1))
                 points = curves[rate]
                 near, far = points[0].distance_m * 0.93, points[-1].distance_m * 1.05
                 distances_m = [near + (far - near) * step / 200 for step in range(201)]
                 shares = [closed_form(rate, TX_POWER_W, distance_m) for distance_m in distances_m]
-                axes.plot([d / 1000 for d in distances_m], shares, color=colour, lw=1, label=f"{rate:g} Mbps")
+                axes.plot([d / 1000 for d in distances_m], shares, color=color, lw=1, label=f"{rate:g} Mbps")
                 axes.plot(
                     [point.distance_m / 1000 for point in points],
                     [point.share for point in points],
                     "o",
-                    color=colour,
+                    color=color,
                     ms=3.5,
                 )
             axes.set(title=title, xlabel="distance (km)", ylabel="share of frames received")
@@ -254,7 +254,7 @@ def draw_cases(path: Path) -> None:
                 lw=1,
                 label="closed form",
             )
-            for label, colour, marker, size, shares in (
+            for label, color, marker, size, shares in (
                 ("INET 4.5", INET, "o", 7.0, [int(row["received"]) / int(row["sent"]) for row in runs]),
                 ("gradysim", OURS, "x", 5.0, [point.share for point in case_curve(case)]),
             ):
@@ -262,7 +262,7 @@ def draw_cases(path: Path) -> None:
                     [float(row["distance_m"]) for row in runs],
                     shares,
                     marker,
-                    color=colour,
+                    color=color,
                     ms=size,
                     mfc="none",
                     label=label,

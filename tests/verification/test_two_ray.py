@@ -111,7 +111,7 @@ def draw(path: Path) -> None:
 
     def panel_of(low_m: float, high_m: float) -> "Callable[[Axes], None]":
         def panel(axes: "Axes") -> None:
-            for label, colour, width, gain in (
+            for label, color, width, gain in (
                 ("two-ray interference, ε = 1.02", OURS, 1.2, engine("TwoRayInterference")),
                 ("two-ray ground reflection", INET, 1.0, engine("TwoRayGroundReflection")),
                 ("free space", MODEL, 0.8, engine("FreeSpacePathLoss")),
@@ -119,7 +119,7 @@ def draw(path: Path) -> None:
                 axes.plot(
                     DISTANCES_M,
                     [10 * log10(max(gain(ground_m, low_m, high_m), 1e-20)) for ground_m in DISTANCES_M],
-                    color=colour,
+                    color=color,
                     lw=width,
                     label=label,
                 )

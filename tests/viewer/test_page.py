@@ -107,7 +107,7 @@ def test_the_next_loss_says_who_interfered(zigzag, browser):
 
 
 def test_a_wrong_filter_says_so(zigzag, browser):
-    browser(zigzag, fill="colour:red", until='"colour" is not a key')
+    browser(zigzag, fill="color:red", until='"color" is not a key')
 
 
 def test_an_outcome_that_does_not_exist_is_answered_with_those_that_do(zigzag, browser):

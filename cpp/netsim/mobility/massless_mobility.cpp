@@ -11,7 +11,7 @@ void MasslessMobility::go_to(SimTime now, Position target) {
     if (!is_in_scene(target)) {
         throw SimulationError("cannot go to (" + std::to_string(target.x) + ", " + std::to_string(target.y) +
                               ", " + std::to_string(target.z) +
-                              "): expected three numbers of metres, each from -1e7 to 1e7");
+                              "): expected three numbers of meters, each from -1e7 to 1e7");
     }
     target_ = target;
     trajectory_.go_to(now, target, speed_mps_);

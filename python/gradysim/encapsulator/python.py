@@ -67,7 +67,7 @@ class PythonProvider(CheckedProvider):
     def cancel_timer(self, timer: str) -> None:
         """Cancel every pending timer of that name."""
         if self.timer_handler is None:
-            self._warn_without("timer", f"the timer {timer!r} was not cancelled")
+            self._warn_without("timer", f"the timer {timer!r} was not canceled")
         else:
             self.timer_handler.cancel_timer(timer, self.node)
 

@@ -58,7 +58,7 @@ def checked_point(name: str, value: Any, error: type[Exception]) -> Position:
     """Return `value` as (x, y, z) if it is three finite numbers, otherwise raise `error`."""
     numbers = _finite_numbers(value)
     if len(numbers) != 3:
-        raise error(f"{name} must be three finite numbers (x, y, z) in metres, got {value!r}")
+        raise error(f"{name} must be three finite numbers (x, y, z) in meters, got {value!r}")
     return (numbers[0], numbers[1], numbers[2])
 
 
@@ -67,7 +67,7 @@ def checked_range(name: str, value: Any, error: type[Exception]) -> tuple[float,
     numbers = _finite_numbers(value)
     if len(numbers) != 2 or numbers[0] > numbers[1]:
         raise error(
-            f"{name} must be two finite numbers (lowest, highest) in metres, the lowest first, got {value!r}"
+            f"{name} must be two finite numbers (lowest, highest) in meters, the lowest first, got {value!r}"
         )
     return (numbers[0], numbers[1])
 

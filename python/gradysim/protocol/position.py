@@ -1,6 +1,6 @@
 """Points in space, and the flat frame in which a simulation places them.
 
-The frame is Cartesian, in metres, with a reference point of the Earth at its origin: x to the North,
+The frame is Cartesian, in meters, with a reference point of the Earth at its origin: x to the North,
 y to the East, z up.
 """
 
@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 
 Position = tuple[float, float, float]
-"""(x, y, z) in metres."""
+"""(x, y, z) in meters."""
 
 LARGEST_COORDINATE_M = 10_000_000
 """How far each coordinate of a node or a target is from the origin at most, in both modes."""
@@ -34,7 +34,7 @@ def geo_to_cartesian(ref_coord: Position, target_coord: Position) -> Position:
         target_coord: The same of the point.
 
     Returns:
-        (x, y, z) in metres: North, East and up of the origin. x is the length of the meridian between
+        (x, y, z) in meters: North, East and up of the origin. x is the length of the meridian between
         the two latitudes, y the great-circle distance between the two longitudes at the origin's latitude.
     """
     latitude, longitude, altitude = ref_coord
@@ -59,7 +59,7 @@ def rotate_position_2d(position: Position, angle_degrees: float) -> Position:
 
 
 def _haversine_distance(coord1: Sequence[float], coord2: Sequence[float]) -> float:
-    """Great-circle distance in metres between two points (latitude deg, longitude deg).
+    """Great-circle distance in meters between two points (latitude deg, longitude deg).
 
     The haversine formula (R. W. Sinnott, Virtues of the Haversine, Sky and Telescope 68, 1984).
     """

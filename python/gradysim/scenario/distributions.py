@@ -295,7 +295,7 @@ def _check_plain(value: Quantity) -> None:
 def _integer(value: Quantity) -> int:
     if isinstance(value.number, int):
         return value.number
-    if isinstance(value.number, Fraction) and value.number.denominator == 1:  # of another unit, 1km in metres
+    if isinstance(value.number, Fraction) and value.number.denominator == 1:  # of another unit, 1km in meters
         return value.number.numerator
     raise BadValue(f"`{value}` is not an integer")
 

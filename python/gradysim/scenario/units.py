@@ -161,7 +161,7 @@ class Quantity:
         if self.unit is None:
             raise BadValue(f"`{self}` has no unit")
         if self.unit.dimension is not unit.dimension:
-            hint = "; `m` is metres, a minute is `min`" if (self.unit.name, unit.name) == ("m", "s") else ""
+            hint = "; `m` is meters, a minute is `min`" if (self.unit.name, unit.name) == ("m", "s") else ""
             of_what = self.unit.dimension.value.partition(" such as ")[0]
             raise BadValue(f"`{self.unit.name}` is the unit of {of_what}{hint}")
         try:

@@ -29,7 +29,7 @@ class AutopilotNode:
     Attributes:
         id: Id of the node. Its MAVLink system id is one more.
         name: Name in messages.
-        start: Position (x, y, z) at the start of the simulation, in metres; z >= 0.
+        start: Position (x, y, z) at the start of the simulation, in meters; z >= 0.
         speed_mps: Initial ground speed, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
         program: An arducopter program for SITL, version 4.1 or newer; see `find_arducopter`.
         user: User of the autopilot if root starts it; None for root.

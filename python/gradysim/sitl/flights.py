@@ -51,7 +51,7 @@ class LockStepFlight:
 
     @property
     def position(self) -> Position:
-        """Position of the node (x, y, z) in metres."""
+        """Position of the node (x, y, z) in meters."""
         north, east, down = self.autopilot.body.position_m
         x, y, _ = self._node.start
         return (x + north, y + east, 0.0 - down)
@@ -181,7 +181,7 @@ class Flights:
         self._advance(self._begin_s + time_s)
 
     def position(self, node_id: int) -> Position:
-        """Return the position of a node (x, y, z) in metres."""
+        """Return the position of a node (x, y, z) in meters."""
         return self._flights[node_id].position
 
     def pilot(self, node_id: int) -> Pilot:

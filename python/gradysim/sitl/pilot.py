@@ -59,7 +59,7 @@ class Pilot:
     ) -> None:
         """Create a pilot for a vehicle that holds the point `start` before the first command.
 
-        `place_of` returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in metres,
+        `place_of` returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in meters,
         or raises ValueError. `pace` is seconds of the autopilot's time per second of the asyncio loop.
         """
         self.vehicle = vehicle
@@ -74,7 +74,7 @@ class Pilot:
         self._speed_is_new.set()
 
     def go_to(self, target: Position) -> None:
-        """Fly to a point (x, y, z) in metres. For z < 0 land at x and y.
+        """Fly to a point (x, y, z) in meters. For z < 0 land at x and y.
 
         Raise ValueError if there is no such place on Earth, and SitlError if the link is lost.
         """
@@ -123,7 +123,7 @@ class Pilot:
         return self._speed_is_new.is_set()
 
     async def attend(self) -> None:
-        """Send speeds, renew velocities, take off and land, until cancelled or one fails by SitlError."""
+        """Send speeds, renew velocities, take off and land, until canceled or one fails by SitlError."""
         await asyncio.gather(self._send_speeds(), self._renew_velocities(), self._take_off_and_land())
 
     async def watch(self) -> None:

@@ -158,7 +158,7 @@ TEST(ArfRateControl, TheRatesOfMixedModeAreThoseOfAllGenerationsByBitrate) {
     EXPECT_EQ(rates, (std::vector<double>{1, 2, 5.5, 6, 9, 11, 12, 18, 24, 36, 48, 54, 54}));
 }
 
-// For any outcomes: neighbours in the mode set only, up only after a success or the interval, down
+// For any outcomes: neighbors in the mode set only, up only after a success or the interval, down
 // only after a failure.
 TEST(ArfRateControl, TheRateMovesByOneStepInTheDirectionOfWhatHappened) {
     for (const ArfRateControl::Parameters& parameters : {arf, aarf}) {

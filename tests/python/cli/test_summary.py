@@ -11,7 +11,7 @@ from gradysim.results.result import NodeResult, RunResult
 
 
 def result(**changes):
-    node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.25, -3.0), {"data": 5, "colour": "[red]"})
+    node = NodeResult(0, "uavs[0]", "Mobile", (1.0, 2.25, -3.0), {"data": 5, "color": "[red]"})
     fields = {
         "config": "ZigZag5",
         "run": 2,
@@ -64,7 +64,7 @@ def short_rows(width=80, **changes):
         "Mobile",
         "1.0, 2.2, -3.0",
         "data = 5",
-        "colour = [red]",
+        "color = [red]",
         "Outcomes of frames, a reception for each radio",
     ],
 )
@@ -74,7 +74,7 @@ def test_what_is_in_it(what):
 
 def test_the_summary_has_a_row_for_each_node_and_a_column_for_each_variable():
     rows = short_rows()
-    assert ["node", "in\xa0m", "data", "colour"] in rows
+    assert ["node", "in\xa0m", "data", "color"] in rows
     assert ["uavs[0]", "1.0,", "2.2,", "-3.0", "5", "[red]"] in rows
     assert [
         "7,200",

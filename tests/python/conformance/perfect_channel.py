@@ -25,7 +25,7 @@ class Case:
     """A network on a perfect channel, in which no node moves before its protocol says so.
 
     Attributes:
-        positions: One node each, in metres.
+        positions: One node each, in meters.
         range_m: Of all radios, in both modes.
         seed: Of the run.
         telemetry_interval_s: 0 for none.

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[3]
 CONFIGS = ROOT / "configs"
 LIMIT_S = 2.5
 
-CASES = {  # file in configs, up to a comma: (configuration, reach in metres, more settings)
+CASES = {  # file in configs, up to a comma: (configuration, reach in meters, more settings)
     "reference/beacons": ("Python100", 300, ()),
     "reference/capture": ("General", 100, ()),
     "reference/flood": ("Python", 50, ()),

@@ -55,7 +55,7 @@ class Trace:
     Attributes:
         entries: What happened.
         tracked: The variables of each node at the end.
-        positions: Where each node ended, in metres.
+        positions: Where each node ended, in meters.
     """
 
     entries: list[Entry] = field(default_factory=list)

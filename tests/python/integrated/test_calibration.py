@@ -176,7 +176,7 @@ def test_a_mistake_is_named(options: dict[str, object], text: str) -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        ({"range_m": "50m"}, "range_m = '50m': expected a number of metres"),
+        ({"range_m": "50m"}, "range_m = '50m': expected a number of meters"),
         ({"ratio": None}, "ratio = None: expected a number"),
         ({"message_bytes": 1.5}, r"message_bytes = 1\.5: expected an integer"),
         ({"sender": 0}, "sender = 0: expected the name of a node or interface"),
@@ -212,6 +212,6 @@ def test_heights_count() -> None:
 @pytest.mark.parametrize(("loss", "left_out"), [("", 0), ("IdealObstacleLoss", 2)])
 def test_obstacles_that_a_run_would_heed_are_counted(loss: str, left_out: int) -> None:
     lengths = {"minX": 1, "maxX": 2, "minY": 1, "maxY": 2, "minZ": 0, "maxZ": 3}
-    boxes = [f"*.environment.obstacle[*].{key} = {metres}m" for key, metres in lengths.items()]
+    boxes = [f"*.environment.obstacle[*].{key} = {meters}m" for key, meters in lengths.items()]
     settings = ["*.environment.numObstacles = 2", f'*.radioMedium.obstacleLoss.typename = "{loss}"', *boxes]
     assert calibrate(link(*settings), 150).obstacles_left_out == left_out

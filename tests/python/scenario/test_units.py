@@ -208,7 +208,7 @@ def test_its_text_reads_as_itself(number: float, unit: object) -> None:
         (
             q(5, "m"),
             "s",
-            "`m` is the unit of a length; `m` is metres, a minute is `min`",
+            "`m` is the unit of a length; `m` is meters, a minute is `min`",
         ),
         (q(4, "dB"), "W", "`dB` is the unit of a ratio in decibels"),
         (q(9999, "dBm"), "W", "`9999dBm` is too large for a number"),

@@ -27,7 +27,7 @@ class Vehicle:
         return await news
 
     def tell(self, point, *, landed=False, kind="GLOBAL_POSITION_INT"):
-        """Say where it is, (x, y, z) in metres; then the pilot has its turn."""
+        """Say where it is, (x, y, z) in meters; then the pilot has its turn."""
         self.position = place_of(point)
         self.is_in_air, self.is_on_ground = not landed, landed
         message = SimpleNamespace(get_type=lambda: kind)

@@ -3,7 +3,7 @@
 
 A point without mass that flies straight at its speed, on a clock of its own that runs `--speedup` times as
 fast as the wall's; with `--model JSON:...`, it steers the physics that it is told of, on their clock. What it
-does wrong is in the file `misbehaviour.json` beside it, by node id:
+does wrong is in the file `misbehavior.json` beside it, by node id:
 
     {"1": {"refuse_arming": true}}
 
@@ -59,7 +59,7 @@ def main():
     options = dict(zip(arguments[::2], arguments[1::2], strict=True))
     (Path.cwd() / "eeprom.bin").write_bytes(b"")
     wrongs = {}
-    file = Path(__file__).with_name("misbehaviour.json")
+    file = Path(__file__).with_name("misbehavior.json")
     if file.exists():
         wrongs = json.loads(file.read_text()).get(Path.cwd().name, {})
     if wrongs.get("exits"):

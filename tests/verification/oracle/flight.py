@@ -36,5 +36,5 @@ class Flight:
             self._legs.append(_Leg(start_ps, here, course.target, course.speed_mps))
 
     def position_at(self, time_ps: int) -> Point:
-        """Where it is at that time, in metres."""
+        """Where it is at that time, in meters."""
         return next(leg for leg in reversed(self._legs) if leg.start_ps <= time_ps).position_at(time_ps)

@@ -1,6 +1,6 @@
 """Cases by seed: networks in which all that the oracle knows happens, and happens often.
 
-Stations at random places, in networks from a metre (few: a centimetre) to kilometres wide, send in bursts;
+Stations at random places, in networks from a metre (few: a centimetre) to kilometers wide, send in bursts;
 many of them are deaf, so that nothing keeps them from sending while others do. For thresholds that are met
 exactly see `exact_case`.
 """

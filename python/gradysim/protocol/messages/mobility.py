@@ -8,9 +8,9 @@ class MobilityCommandType(int, Enum):
     """Kind of a mobility command, which decides the meaning of its parameters.
 
     Attributes:
-        GOTO_COORDS: Go to (x, y, z) = (param_1, param_2, param_3), metres.
+        GOTO_COORDS: Go to (x, y, z) = (param_1, param_2, param_3), meters.
         GOTO_GEO_COORDS: Go to (latitude, longitude, altitude) = (param_1, param_2, param_3), degrees,
-            degrees, metres.
+            degrees, meters.
         SET_SPEED: Set the speed to param_1, if param_2 and param_3 are None or 0. Otherwise set the velocity
             to (param_1, param_2, param_3); m/s.
     """
@@ -34,14 +34,14 @@ class MobilityCommand:
 
 
 class GotoCoordsMobilityCommand(MobilityCommand):
-    """Go straight to the point (x, y, z), metres, in the simulation's Cartesian frame."""
+    """Go straight to the point (x, y, z), meters, in the simulation's Cartesian frame."""
 
     def __init__(self, x: float, y: float, z: float) -> None:
         super().__init__(MobilityCommandType.GOTO_COORDS, x, y, z)
 
 
 class GotoGeoCoordsMobilityCommand(MobilityCommand):
-    """Go straight to a geographic point: latitude and longitude in degrees, altitude in metres."""
+    """Go straight to a geographic point: latitude and longitude in degrees, altitude in meters."""
 
     def __init__(self, lat: float, lon: float, alt: float) -> None:
         super().__init__(MobilityCommandType.GOTO_GEO_COORDS, lat, lon, alt)

@@ -10,7 +10,7 @@ class Telemetry:
     """State of the vehicle now.
 
     Attributes:
-        current_position: (x, y, z) in metres.
+        current_position: (x, y, z) in meters.
     """
 
     current_position: Position

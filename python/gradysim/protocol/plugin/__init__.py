@@ -1,1 +1,1 @@
-"""Behaviours that a protocol can take on without inheriting from them."""
+"""Behaviors that a protocol can take on without inheriting from them."""

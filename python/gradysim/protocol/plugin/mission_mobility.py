@@ -132,7 +132,7 @@ class MissionMobilityPlugin:
                 mission.append(checked_point("a waypoint", line.split(","), ValueError))
             except ValueError:
                 raise MissionMobilityPluginException(
-                    f"{mission_file_path}:{number}: expected a waypoint x,y,z of finite numbers in metres, "
+                    f"{mission_file_path}:{number}: expected a waypoint x,y,z of finite numbers in meters, "
                     f"got {line.strip()!r}"
                 ) from None
         if not mission:

@@ -108,7 +108,7 @@ class Flight:
         self.report.battery_start = self._vehicle.battery_percent
 
     async def attend(self) -> None:
-        """Keep the vehicle flying until cancelled. Raise SitlError if it ends or ignores commands."""
+        """Keep the vehicle flying until canceled. Raise SitlError if it ends or ignores commands."""
         await asyncio.gather(self.pilot.watch(), self.pilot.attend(), self._keep_positions_coming())
 
     def telemetry_is_due(self) -> None:
@@ -312,7 +312,7 @@ class FreeRunning:
         await _all(flight.begin(is_simulated=is_simulated) for flight in self._flights.values())
 
     async def _close_at_the_end(self) -> None:
-        """Close all when the tasks are cancelled, as for a simulation that is not finished."""
+        """Close all when the tasks are canceled, as for a simulation that is not finished."""
         try:
             await asyncio.Event().wait()
         finally:

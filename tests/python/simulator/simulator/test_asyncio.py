@@ -104,11 +104,11 @@ def test_in_the_end_tasks_are_cancelled_and_the_loop_is_closed():
         try:
             await asyncio.Event().wait()
         finally:
-            handler.calls.append("cancelled")
+            handler.calls.append("canceled")
 
     handler = Asynchronous(work)
     build(timers(1), handlers=[handler]).start_simulation()
-    assert (handler.calls[-1], handler.asyncio_loop.is_closed()) == ("cancelled", True)
+    assert (handler.calls[-1], handler.asyncio_loop.is_closed()) == ("canceled", True)
 
 
 def test_handlers_may_use_the_loop_in_their_own_methods():

@@ -88,12 +88,12 @@ def test_messages_name_the_cluster(transport, provider, membership):
 
 
 def test_restarting_a_timer_cancels_it(transport, provider, monkeypatch):
-    cancelled = []
-    monkeypatch.setattr(provider, "cancel_timer", cancelled.append)
+    canceled = []
+    monkeypatch.setattr(provider, "cancel_timer", canceled.append)
     transport.cancel_timer("heartbeat")
     transport.restart_timer("heartbeat", 0.1)
     transport.restart_timer("heartbeat", 0.5)
-    assert (cancelled, transport.pending_timers) == (["__RAFT__:heartbeat"], {"heartbeat"})
+    assert (canceled, transport.pending_timers) == (["__RAFT__:heartbeat"], {"heartbeat"})
     assert provider.timers == {"__RAFT__:heartbeat": 7.5}
 
 
