@@ -140,12 +140,12 @@ MOBILITY_KEYS: tuple[Key, ...] = (
             STATIC_GRID,
             ARDUPILOT,
             otherwise="protocols move their nodes here, with plugins for waypoints, random trips and more"
-            " (docs/how-to/use-plugins.md)",
+            " (docs/how-to/fly-a-mission.md, docs/how-to/move-at-random.md)",
         ),
-        "How the node moves. MasslessMobility: as its protocol says (missions, random waypoints: "
-        "docs/how-to/use-plugins.md). StationaryMobility: not at all. StaticGridMobility: not at "
-        "all, and it starts in a grid. ArdupilotMobility: as its protocol says, flown by a real "
-        "autopilot (docs/how-to/fly-with-ardupilot.md)",
+        "How the node moves. MasslessMobility: as its protocol says (missions: docs/how-to/fly-a-mission.md, "
+        "random waypoints: docs/how-to/move-at-random.md). StationaryMobility: not at all. "
+        "StaticGridMobility: not at all, and it starts in a grid. ArdupilotMobility: as its "
+        "protocol says, flown by a real autopilot (docs/how-to/fly-with-ardupilot.md)",
         f'"{MASSLESS}"',
     ),
     _start(

@@ -99,3 +99,32 @@ def swarm(shell: Callable[[str, Path], str], tmp_path: Path) -> Path:
     """A folder with `swarm`, the project with which several guides begin; it is made by `gradysim new`."""
     shell("gradysim new swarm", tmp_path)
     return tmp_path
+
+
+@pytest.fixture
+def saved(
+    code_blocks: Callable[[str, str], list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[..., Path]:
+    """`saved(document, python="a.py", ini="a.ini")`: the document's files as a reader would save them.
+
+    Returns their folder, which is the working directory.
+    """
+
+    def save(document: str, **names: str) -> Path:
+        for language, name in names.items():
+            (tmp_path / name).write_text("\n\n".join(code_blocks(document, language)), encoding="utf-8")
+        monkeypatch.chdir(tmp_path)
+        return tmp_path
+
+    return save
+
+
+@pytest.fixture
+def prints(shell: Callable[[str, Path], str]) -> Callable[[str, Path, str], bool]:
+    """`prints(commands, folder, text)`: whether what the commands print there has these lines in a row."""
+
+    def contains(commands: str, folder: Path, text: str) -> bool:
+        printed = "\n".join(line.rstrip() for line in shell(commands, folder).splitlines())
+        return f"\n{text.rstrip()}\n" in f"\n{printed}\n"
+
+    return contains
