@@ -268,7 +268,7 @@ def draw_culling() -> None:
     """Draw which radios notice a frame, and how two weak frames make a channel busy, from a run."""
     field = Field()
     figure, (map_axes, time_axes) = pyplot.subplots(
-        1, 2, figsize=(9.4, 3.9), width_ratios=[1.5, 1], layout="constrained"
+        1, 2, figsize=(7.8, 3.5), width_ratios=[1.7, 1], layout="constrained"
     )
     draw_map(map_axes, field)
     draw_reaches(map_axes, field)
@@ -282,9 +282,9 @@ def draw_map(axes: Axes, field: Field) -> None:
     noticed, together = field.notified(0), field.together()
     others = field.nodes.keys() - noticed - together - named
     for names, color, size, label in (
-        (noticed, BLUE, 13, "notified of the frame of a"),
-        (together, ORANGE, 17, "busy by a and b together"),
-        (others, "#b9bec6", 7, "not notified of it"),
+        (noticed, BLUE, 13, "notified of a's frame"),
+        (together, ORANGE, 17, "busy by a and b"),
+        (others, "#b9bec6", 7, "not notified"),
     ):
         places = [field.nodes[name].initial_position for name in sorted(names)]
         axes.scatter(
@@ -300,7 +300,13 @@ def draw_map(axes: Axes, field: Field) -> None:
         axes.annotate(name, (x, y), (6, 6), textcoords="offset points", fontweight="bold", color=RED)
     axes.set(aspect="equal", xlabel="x in m", ylabel="y in m", xlim=(0, 4000), ylim=(0, 2600), title="Places")
     axes.legend(
-        loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=3, frameon=False, fontsize=8, handletextpad=0
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.2),
+        ncols=3,
+        frameon=False,
+        fontsize=8,
+        handletextpad=0,
+        columnspacing=1,
     )
 
 
