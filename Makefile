@@ -117,6 +117,7 @@ figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: r
 pictures: figures $(node_packages) system-chromium  ## Draw the pictures of the README and the guides again.
 	$(BIN)/python docs/pictures/draw.py
 	$(BIN)/python docs/pictures/engine/draw.py
+	$(BIN)/python docs/pictures/architecture/draw.py
 
 schema: build  ## Rewrite what is derived from the declarations of the engine's fields.
 	$(BIN)/python cpp/proxy_protocol/write_schema.py
