@@ -86,12 +86,12 @@ def is_listening(port: int) -> bool:
 
 
 def draw_viewer(folder: Path) -> None:
-    """Draw what the guide of handlers shows in the browser."""
-    guide = (ROOT / "docs/how-to/use-handlers.md").read_text()
-    climber, *programs = re.findall(r"^```python\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
+    """Draw what the guide to the visualization handler shows in the browser."""
+    guide = (ROOT / "docs/how-to/use-the-visualization-handler.md").read_text()
+    watch, climber = re.findall(r"^```python\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
     (ini,) = re.findall(r"^```ini\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
     (folder / "climber.py").write_text(climber)
-    (folder / "watch.py").write_text("\n\n".join(programs) + "\nshow('watch.ini')\n")
+    (folder / "watch.py").write_text(watch + "\nshow('watch.ini')\n")
     (folder / "watch.ini").write_text(ini.replace("10s", "1000s"))
     asked = {"url": "http://localhost:5678/#node=Climber%201", "after": 6, "pause": True}
     asked |= {"width": 900, "height": 560, "screenshot": str(folder / "viewer.png")}

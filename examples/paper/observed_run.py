@@ -1,6 +1,6 @@
 """A run of ZigZag, and what a handler saw of it once a minute: steps.py begins here.
 
-docs/how-to/use-handlers.md explains handlers, docs/how-to/repeat-the-paper.md what is looked for.
+docs/how-to/write-a-handler.md explains handlers, docs/how-to/repeat-the-paper.md what is looked for.
 """
 
 import math

@@ -120,6 +120,26 @@ def saved(
 
 
 @pytest.fixture
+def climbers(
+    code_blocks: Callable[[str, str], list[str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[str, str], Path]:
+    """`climbers(document, "watch.py")`: a guide's script with this name, its `climber.py` and `watch.ini`.
+
+    Returns their folder, which is the working directory.
+    """
+
+    def save(document: str, name: str) -> Path:
+        first, climber, *others = code_blocks(document, "python")
+        (tmp_path / "climber.py").write_text(climber, encoding="utf-8")
+        (tmp_path / name).write_text("\n\n".join([first, *others]), encoding="utf-8")
+        (tmp_path / "watch.ini").write_text(code_blocks(document, "ini")[0], encoding="utf-8")
+        monkeypatch.chdir(tmp_path)
+        return tmp_path
+
+    return save
+
+
+@pytest.fixture
 def prints(shell: Callable[[str, Path], str]) -> Callable[[str, Path, str], bool]:
     """`prints(commands, folder, text)`: whether what the commands print there has these lines in a row."""
 
