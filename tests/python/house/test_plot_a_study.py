@@ -43,19 +43,10 @@ def test_its_commands_draw_its_pictures(
     assert [row["higher"] for row in rows] == ["0"] * 4
 
 
-def test_its_functions_draw_and_list(shell: Shell, root: Path, shown: dict[str, Any], tmp_path: Path) -> None:
+def test_its_function_draws_two_panels(
+    shell: Shell, root: Path, shown: dict[str, Any], tmp_path: Path
+) -> None:
     short = "--set sim-time-limit=5s --set repeat=2 --set '*.numScouts=${scouts=5, 10}'"
     shell(f"gradysim run configs/scouts.ini {short} --result-dir {tmp_path}/scouts --quiet", root)
     shown["two_panels"](str(tmp_path / "scouts"), str(tmp_path / "panels.pdf"))
     assert (tmp_path / "panels.pdf").read_bytes().startswith(b"%PDF")
-    columns = shown["reports"](str(tmp_path / "scouts"))
-    assert list(columns) == [
-        "config",
-        "mode",
-        "run",
-        "seed",
-        "scouts",
-        "base reports",
-        "broadcast messages delay in s",
-    ]
-    assert columns["scouts"] == [5, 5, 10, 10]
