@@ -23,8 +23,8 @@ HEADINGS = ("key", "unit or value", "default", "meaning")
 INTRODUCTION = """# Keys of .ini files
 
 The keys that an `.ini` file may set. `gradysim keys` prints this page. `gradysim keys ardupilot` prints the
-keys that contain this word in their name, values or meaning. `gradysim keys "*.power"` prints those that end
-so.
+keys that contain this word in their name, values or meaning. `gradysim keys "*.power"` prints those with this
+ending.
 
 - `nodes` stands for the name of a group, `*` for any index.
 - Values may have other units of the same dimension: a power in `mW` or `dBm`, a time in `ms` or `h`.
@@ -32,17 +32,17 @@ so.
   `*.uavs[*].mobility.speed`. `gradysim run` warns of a line that has no effect because of a line above it.
 - A list of values, `${10ms, 50ms}`, makes one run for each (docs/reference/studies.md).
 - Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/reference/values.md).
-- A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file. It is a
-  regular file. A scenario has at most 64 MiB, in at most 1,000 files.
-- Options of OMNeT++ alone are ignored: how it runs and shows a simulation (`cmdenv-*`, `qtenv-*`, `ned-path`,
-  `*.visualizer.**`), and what it records where (`result-dir`, `**.vector-recording`). Of `network` only the
-  name is used.
+- A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file, which
+  must be a regular file. A scenario has at most 64 MiB, in at most 1,000 files.
+- Options that only OMNeT++ has are ignored: those for running and showing a simulation (`cmdenv-*`,
+  `qtenv-*`, `ned-path`, `*.visualizer.**`), and those for recording (`result-dir`, `**.vector-recording`).
+  Of `network` only the name is used.
 
-A key that matches no parameter is an error. A line for a model that is not chosen, such as `pathLoss.sigma`
-with `FreeSpacePathLoss`, is a warning of `gradysim run`: nothing reads it. There is no warning if at least
-one node reads the line, if `typename = ""` turns the model off, or in prototype mode.
+A key that matches no parameter is an error. Nothing reads a line for a model that is not chosen, such as
+`pathLoss.sigma` with `FreeSpacePathLoss`. `gradysim run` warns of it. It does not warn if at least one node
+reads the line, if `typename = ""` turns the model off, or in prototype mode.
 
-This page is made by `gradysim keys --markdown`."""
+`gradysim keys --markdown` writes this page."""
 
 
 def list_keys(

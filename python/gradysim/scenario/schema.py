@@ -167,13 +167,13 @@ OPTION_KEYS: tuple[Key, ...] = (
     _option(
         "repeat",
         integer(1, 1_000_000),
-        "How many runs there are of each combination of values of `${...}`, with a seed each",
+        "Number of runs of each combination of values of `${...}`, each with its own seed",
         "1",
     ),
     _option(
         "constraint",
         text(),
-        "Which combinations of values are runs: `$x < $y && $x != 3`; all by default",
+        "Condition on the values of a run: `$x < $y && $x != 3`; by default all combinations are runs",
         '""',
     ),
     _option(
@@ -201,7 +201,7 @@ OPTION_KEYS: tuple[Key, ...] = (
         "Least time between two rows that `--vectors` writes of a variable or position",
         "0s",
     ),
-    _option("description", text(), "What the configuration is about", '""'),
+    _option("description", text(), "Description of the configuration", '""'),
 )
 
 OPTIONS: dict[str, ParameterType] = {key.path: key.kind for key in OPTION_KEYS}

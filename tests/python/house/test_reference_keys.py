@@ -11,5 +11,5 @@ def test_the_page_is_the_commands(root: Path, capsys: pytest.CaptureFixture[str]
     pytest.importorskip("gradysim._netsim")
     assert main(["keys", "--markdown"]) == 0
     assert (root / "docs/reference/keys.md").read_text(encoding="utf-8") == capsys.readouterr().out, (
-        "write it anew: gradysim keys --markdown > docs/reference/keys.md"
+        "run gradysim keys --markdown > docs/reference/keys.md"
     )
