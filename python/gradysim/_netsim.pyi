@@ -309,7 +309,7 @@ class Network:
         "rts overheard", "cts", "cts overheard".
         """
     def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
-        """The same for the copies at one node that were strong enough to be received, whoever they were for.
+        """The same for the copies at one node that were strong enough to be received, for any destination.
 
         Kinds: "broadcast", "unicast", "ack", "rts", "cts". "below_sensitivity" and "in_air" are not kept for
         each node, and 0.

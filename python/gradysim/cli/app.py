@@ -10,9 +10,9 @@
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
-Exit codes: 0 all is well; 1 a protocol failed, or ended its process; 2 a mistake in the arguments
-or in the .ini file, or what the system refuses: an output that takes no more, a further process; 3 another
-process computes a run; 4 a run needs more than --memory; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
+Exit codes: 0 success; 1 a protocol failed, or ended its process; 2 an error in the arguments or the .ini
+file, or an error of the system, such as a full disk; 3 another process computes a run; 4 a run needs more
+than --memory; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
 Each command has its own file in `gradysim.cli`.
 """
 
@@ -50,7 +50,7 @@ def installed_version() -> str:
 
 
 def mistake_in_arguments(error: CycloptsError) -> "RenderableType":
-    """Return what to print of it; of an argument that nothing takes cyclopts says only `Unused Tokens`."""
+    """Return the message of an error. cyclopts reports only `Unused Tokens` for a superfluous argument."""
     if not isinstance(error, UnusedCliTokensError) or not error.unused_tokens:
         return CycloptsPanel(error)
     first = error.unused_tokens[0]
@@ -78,25 +78,25 @@ app.command(calibrate_power, name="calibrate")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Carry out a command line (that of this process by default) and return the exit code."""
+    """Run a command line, by default the command line of this process, and return the exit code."""
     if sys.stdout is None:  # the caller closed it
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (it stays for the process)
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 (likewise)
     if isinstance(sys.stdout, TextIOWrapper) and sys.stdout.errors == "strict":
-        sys.stdout.reconfigure(errors="backslashreplace")  # no character is an error
+        sys.stdout.reconfigure(errors="backslashreplace")  # so that every character can be printed
     try:
         try:
             code = app(arguments, exit_on_error=False, print_error=True, result_action="return_value")
         finally:
-            sys.stdout.flush()  # here, where an output that takes no more is handled
-    except CycloptsError:  # cyclopts has said what is wrong
+            sys.stdout.flush()  # here, where a failing output is handled
+    except CycloptsError:  # cyclopts has printed the message
         return MISTAKE
     except KeyboardInterrupt:
         return INTERRUPTED
     except SystemExit as end:
         if isinstance(end.__context__, BrokenPipeError):
-            return OK  # what rich makes of it
+            return OK  # rich converts it
         raise
     except OSError as error:
         if not is_about_output(error):

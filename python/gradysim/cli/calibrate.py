@@ -1,4 +1,4 @@
-"""`gradysim calibrate`: the transmitter power for a range."""
+"""`gradysim calibrate`: the transmission power for a range."""
 
 import math
 import sys
@@ -28,24 +28,24 @@ def calibrate_power(
     range_text: Annotated[
         str, Parameter(name="--range", allow_leading_hyphen=True, help="The wanted range, such as 50m.")
     ],
-    ratio: Annotated[float, Parameter(help="Share of the frames that is to be received there.")] = 0.5,
+    ratio: Annotated[float, Parameter(help="Ratio of frames received at that range.")] = 0.5,
     message: Annotated[
         str, Parameter(allow_leading_hyphen=True, help="Length of the message in a frame.")
     ] = "50B",
     sender: Annotated[
         str | None,
-        Parameter(help="Node that sends, or its interface (relay.wlan[1]); by default the first one."),
+        Parameter(help="Sending node, or its interface (relay.wlan[1]); by default the first node."),
     ] = None,
     receiver: Annotated[
         str | None,
-        Parameter(help="Node that receives, or its interface; by default another one like the sender."),
+        Parameter(help="Receiving node, or its interface; by default a copy of the sender."),
     ] = None,
     picture: Annotated[
         Path | None, Parameter(help="Draw reception over distance into this file (.png, .svg, .pdf).")
     ] = None,
     settings: SetOption = (),
 ) -> int:
-    """Find the transmitter power for a wanted range under the models of a configuration."""
+    """Find the transmission power for a wanted range under the models of a configuration."""
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigError
@@ -81,7 +81,7 @@ def calibrate_power(
 
 
 def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> str:
-    """Return all of it as text, for an output of that encoding."""
+    """Return the report, for an output of that encoding."""
     from gradysim.scenario.units import db_from_ratio
 
     c = calibration
@@ -92,7 +92,7 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
     lines = [
         f"{_sender(c)} to {_receiver(c)}: {c.ratio:.12g} of the broadcast frames are received at"
         f" {c.range_m:.12g} m",
-        f"if nobody else sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
+        f"if no other node sends ({c.message_bytes} B of message, {c.frame_bytes} B in all, at"
         f" {c.bitrate_bps / 1e6:g} Mbps;",
         f"{above} noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
         "",
@@ -111,7 +111,7 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
 
 
 def _sender(c: "Calibration") -> str:
-    """Its name, with that of its interface unless it is the first one, as receivers have it."""
+    """Return its name, with its interface unless it is the first one. Receivers have the same form."""
     return f"{c.sender}.wlan[{c.sender_interface}]" if c.sender_interface else c.sender
 
 
@@ -120,7 +120,7 @@ def _receiver(c: "Calibration") -> str:
 
 
 def _in_mw(power_w: float) -> str:
-    """Six digits, rounded up: where the sensitivity decides, nothing at all is received with less."""
+    """Return six digits, rounded up: with less than the sensitivity, nothing is received."""
     from decimal import ROUND_CEILING, Context
 
     rounded_w = Context(prec=6, rounding=ROUND_CEILING).create_decimal(repr(power_w))
@@ -128,14 +128,14 @@ def _in_mw(power_w: float) -> str:
 
 
 def _in_dbm(power_w: float) -> str:
-    """Three digits after the point, rounded up."""
+    """Return three digits after the point, rounded up."""
     from gradysim.scenario.units import dbm_from_w
 
     return f"{math.ceil(1000 * dbm_from_w(power_w)) / 1000:.3f}"
 
 
 def _in_metres(distance_m: float) -> str:
-    """Five digits, or all before the point."""
+    """Return five digits, or all digits before the point."""
     return f"{distance_m:.5g}" if distance_m < 99_999.5 else f"{distance_m:.0f}"
 
 
@@ -161,28 +161,30 @@ def _what_is_left_out(obstacles: int) -> list[str]:
 
 
 def check_picture(path: Path) -> None:
-    """Check what can be known of a picture before there is something to draw.
+    """Check the file of a picture before the calculation.
 
     Raises:
-        ImportError: matplotlib is missing; the text says how to get it.
-        ValueError: The ending names no format, there is no such folder, or it is one itself.
+        ImportError: matplotlib is missing; the message says how to install it.
+        ValueError: The suffix is not a format, the directory does not exist, or the file is a directory.
     """
     if path.suffix[1:].lower() not in _figure().canvas.get_supported_filetypes():
-        problem = f"`{path.suffix}` is no format" if path.suffix else "its name does not end in a format"
+        problem = f"`{path.suffix}` is not a format" if path.suffix else "its name does not end in a format"
         raise ValueError(f"--picture {path}: {problem}; expected .png, .svg or .pdf")
     if not path.parent.is_dir():
-        raise ValueError(f"--picture {path}: there is no folder {path.parent}; expected one that is there")
+        raise ValueError(
+            f"--picture {path}: the directory {path.parent} does not exist; expected an existing one"
+        )
     if path.is_dir():
-        raise ValueError(f"--picture {path}: it is a folder; expected a file")
+        raise ValueError(f"--picture {path}: it is a directory; expected a file")
 
 
 def draw(calibration: "Calibration", path: Path) -> None:
-    """Draw reception over distance into a file whose ending says the format.
+    """Draw reception over distance into a file. Its suffix chooses the format.
 
     Raises:
-        ImportError: matplotlib is missing; the text says how to get it.
-        ValueError: The ending names no format.
-        OSError: The file, which it names, cannot be written.
+        ImportError: matplotlib is missing; the message says how to install it.
+        ValueError: The suffix is not a format.
+        OSError: The file, which the error names, cannot be written.
     """
     c = calibration
     figure = _figure()
@@ -195,7 +197,7 @@ def draw(calibration: "Calibration", path: Path) -> None:
     try:
         figure.savefig(path)
     except OSError as error:
-        error.filename = str(path)  # which a full disk does not say
+        error.filename = str(path)  # missing if the disk is full
         raise
 
 

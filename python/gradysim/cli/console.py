@@ -1,4 +1,4 @@
-"""Where reports for people are printed."""
+"""Console for reports."""
 
 import os
 import sys
@@ -7,20 +7,20 @@ from typing import TextIO
 from rich.console import Console
 
 _NO_BOUND = 10_000
-"""Columns. Tables take as many as they need."""
+"""Width in columns. Tables are as wide as they need to be."""
 
 
 class _Console(Console):
     def on_broken_pipe(self) -> None:
-        """Raise the BrokenPipeError, which the command deals with. Rich would exit."""
+        """Raise the BrokenPipeError, which `main` handles. Rich would exit."""
         raise
 
 
 def console(output: TextIO | None = None) -> Console:
     """Return a console for `output`, by default standard output.
 
-    A terminal has its width, and COLUMNS says one. A file or a pipe has none: what reads it, such as grep,
-    gets each row of a table in one line, and nothing is cut off.
+    A terminal has a width, or COLUMNS sets one. A file or a pipe does not: each row of a table is one line
+    for programs such as grep, and nothing is truncated.
     """
     target = sys.stdout if output is None else output
     has_width = target.isatty() or "COLUMNS" in os.environ

@@ -1,4 +1,4 @@
-"""Results of earlier runs in --result-dir: what --resume leaves out, and what is not replaced unasked."""
+"""Results of earlier runs in --result-dir: runs that --resume skips, and results that need --replace."""
 
 import sys
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def check_other_settings(study: "Study", options: RunOptions) -> None:
-    """Raise ConfigError for results of other settings or seeds that these runs would replace unasked."""
+    """Raise ConfigError if these runs would replace results of other settings or seeds without --replace."""
     from gradysim.results.files import run_file
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_runs
@@ -39,7 +39,7 @@ def check_other_settings(study: "Study", options: RunOptions) -> None:
 
 
 def is_of_other_settings(scenario: "Scenario", options: RunOptions) -> bool:
-    """Return whether a run would replace a result of other settings or another seed, and unasked."""
+    """Return whether a run would replace a result of other settings or another seed without --replace."""
     from gradysim.results.files import has_other_settings
 
     if not options.is_writer or options.resume or options.replace:
@@ -48,11 +48,9 @@ def is_of_other_settings(scenario: "Scenario", options: RunOptions) -> bool:
 
 
 def left_to_do(study: "Study", options: RunOptions) -> list[int]:
-    """Return the places in `study` of runs that lack a file that is asked for.
+    """Return the positions in `study` of runs that lack a requested file.
 
-    Says which do not, and which are outdated.
-
-    Raises ConfigError without a folder.
+    Prints the other runs, and the outdated ones. Raises ConfigError without a directory.
     """
     from gradysim.results.files import files_changed_since, run_file
     from gradysim.scenario.errors import ConfigError
@@ -82,7 +80,7 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
     for files, runs in outdated.items():
         print(
             f"{study.config}: {text_of_files(files)} changed after {len(runs)} of {len(study)}"
-            f" runs in {result_dir} ({text_of_runs(runs)}), which begin anew",
+            f" runs in {result_dir} ({text_of_runs(runs)}), which start again",
             file=sys.stderr,
         )
     if done:
@@ -95,7 +93,7 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
 
 
 def is_done(scenario: "Scenario", options: RunOptions) -> bool:
-    """Return whether the directory has the result of the run as it is now, with all wanted files."""
+    """Return whether the directory has an up-to-date result of the run, with all requested files."""
     from gradysim.results.files import files_changed_since
 
     changed = files_changed_since(scenario, options.mode, options.directory, ids_of_fates(scenario, options))
@@ -103,7 +101,7 @@ def is_done(scenario: "Scenario", options: RunOptions) -> bool:
 
 
 def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
-    """Whether all that is asked for beside its result is there as the run left it, with the labels of now."""
+    """Return whether all requested files other than the result are unchanged, with the current labels."""
     from gradysim.results.files import has_written
 
     files = files_for_omnetpp(scenario, options)
@@ -115,7 +113,7 @@ def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
 
 
 def _has_vectors(files: Sequence[Path], scenario: "Scenario", options: RunOptions) -> bool:
-    """Whether the last of the files has vectors of all nodes that are asked for."""
+    """Return whether the last file has vectors of all requested nodes."""
     from gradysim.results.omnetpp_reader import recorded_modules
 
     expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, options)}

@@ -1,4 +1,4 @@
-"""Exit codes, and what a command says of mistakes, of failures of protocols and of crashes."""
+"""Exit codes, and messages about errors, failures of protocols and crashes."""
 
 import contextlib
 import errno
@@ -18,25 +18,25 @@ _TAKES_NO_MORE = {errno.EPIPE, errno.ENOSPC, errno.EFBIG, errno.EDQUOT, errno.EI
 
 
 def is_about_output(error: BaseException | None) -> bool:
-    """Return whether standard output takes no more. An error about another file has the name of that file."""
+    """Return whether standard output cannot be written. Errors about other files have a file name."""
     return isinstance(error, OSError) and error.errno in _TAKES_NO_MORE and error.filename is None
 
 
 def abandon_output() -> None:
-    """Let nothing more be written to standard output: the interpreter flushes it once more as it ends."""
+    """Discard further standard output. The interpreter flushes it again when it exits."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def say_mistake(mistake: Exception) -> int:
-    """Say what the user got wrong, without a traceback, and return the exit code."""
+    """Print an error of the user without a traceback, and return the exit code."""
     if is_about_output(mistake):
-        raise mistake  # `main` deals with it
+        raise mistake  # `main` handles it
     print(text_of(mistake), file=sys.stderr)
     return MISTAKE
 
 
 def text_of(mistake: Exception) -> str:
-    """Return what to say. If the system refused something that has no name, say where it was asked for."""
+    """Return the message. An error of the system without a file name gets the line that caused it."""
     if not isinstance(mistake, OSError):
         return str(mistake)
     if mistake.filename is not None:
@@ -47,16 +47,16 @@ def text_of(mistake: Exception) -> str:
 
 
 def report_crashes() -> None:
-    """Let the interpreter say on the error output in which line it crashes, as in a library written in C."""
-    with contextlib.suppress(OSError, ValueError):  # an error output without a file descriptor
+    """Make the interpreter print the current line on a crash; for example, in a C library."""
+    with contextlib.suppress(OSError, ValueError):  # standard error without a file descriptor
         if not faulthandler.is_enabled():
             faulthandler.enable()
 
 
 def print_failure(failure: BaseException, file: TextIO) -> None:
-    """Print `failure` with its notes; the frames of gradysim that led to the user's code are left out.
+    """Print `failure` with its notes, without the frames of gradysim above the user's code.
 
-    A KeyboardInterrupt without notes came while no callback was running: there is nothing to print.
+    A KeyboardInterrupt without notes came outside of callbacks. It is not printed.
     """
     if isinstance(failure, KeyboardInterrupt) and not hasattr(failure, "__notes__"):
         return
@@ -73,13 +73,13 @@ def print_failure(failure: BaseException, file: TextIO) -> None:
     refused_commands = (CommunicationException, MasslessMobilityException, TimerException)
     frames = None if isinstance(failure, without_frames) else from_users_code(failure.__traceback__)
     told = traceback.TracebackException(type(failure), failure, frames)
-    if isinstance(failure, refused_commands):  # integrated mode has no frames to show where they are raised
+    if isinstance(failure, refused_commands):  # in integrated mode no frames show where they are raised
         cut_behind_users_code(told.stack)
     told.print(file=file)
 
 
 def cut_behind_users_code(stack: traceback.StackSummary) -> None:
-    """Take the frames of gradysim that the user's code called from the end of `stack`, if there is any."""
+    """Remove frames of gradysim that the user's code called from the end of `stack`."""
     last = max((index for index, frame in enumerate(stack) if not is_ours(frame.filename)), default=None)
     if last is not None:
         del stack[last + 1 :]

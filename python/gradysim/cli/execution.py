@@ -1,4 +1,4 @@
-"""One run of `gradysim run`: checked, built, executed and shown. It keeps its results, however it ends."""
+"""One run of `gradysim run`: validated, built, executed and reported. It keeps its results in all cases."""
 
 import json
 import sys
@@ -24,39 +24,42 @@ if TYPE_CHECKING:
 
 
 class Check(Protocol):
-    """Checks a scenario, and says what is wrong by a ConfigError."""
+    """Validates a scenario. ConfigError names what is invalid."""
 
     def __call__(self, scenario: "Scenario", *, is_built_next: bool) -> None:
-        """Check it, but for what its run checks when `is_built_next`: a network is checked by building it."""
+        """Validate a scenario.
+
+        With `is_built_next`, skip the checks of the build, which checks the network.
+        """
 
 
 class Run(Protocol):
-    """A run of either mode, built and ready."""
+    """A run of either mode, ready to execute."""
 
     def execute(
         self,
         progress: Callable[[float], None] | None = None,
         should_stop: Callable[[], bool] | None = None,
     ) -> None:
-        """Run to the end; raise what a protocol raises."""
+        """Run to the end. Exceptions of protocols are raised."""
 
     def result(self) -> "RunResult":
-        """Return what has been computed up to now."""
+        """Return the results so far."""
 
     def findings(self) -> "list[Finding]":
-        """Return what lint checks found in the protocols up to now."""
+        """Return the findings of lint checks of the protocols so far."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """How a run ended, and what it computed until then.
+    """How a run ended, and its results until then.
 
     Attributes:
-        result: None if the run could not even be built.
-        failure: What a protocol raised, in a callback or when it was made; the KeyboardInterrupt if a second
-            Ctrl-C ended it.
+        result: None if the run could not be built.
+        failure: Exception of a protocol, in a callback or in its constructor; the KeyboardInterrupt if a
+            second Ctrl-C ended it.
         interrupted: Whether Ctrl-C, SIGTERM or SIGHUP ended it.
-        findings: What lint checks found in the protocols.
+        findings: Findings of lint checks of the protocols.
     """
 
     result: "RunResult | None"
@@ -72,10 +75,10 @@ def execute(
     terminal: "Console | None",
     memory_bytes: int | None = None,
 ) -> Outcome:
-    """Build and execute a run, with a progress bar if there is a terminal, and with a limit of its memory.
+    """Build and execute a run, with a progress bar on a terminal and a memory limit.
 
     Raises:
-        ConfigError, CompiledPartMissingError: The scenario or the installation is wrong.
+        ConfigError, CompiledPartMissingError: The scenario or the installation is not valid.
         KeyboardInterrupt: Ctrl-C was pressed before the run was built.
     """
     try:
@@ -111,19 +114,19 @@ def report(
     options: RunOptions,
     which: str | None = None,
 ) -> tuple[int, OSError | None]:
-    """Write and show what came out of a run, only JSON if it is to be quiet.
+    """Write and print the results of a run. With --json, print JSON only.
 
-    Files come first: standard output may take no more. Why a run failed comes last, where it is seen even if
-    tables fill the screen.
+    Files come first, since standard output may fail. The reason of a failure comes last, where it is visible
+    below the tables.
 
     Args:
-        outcome: What came out.
-        write: Makes the files of a result, and gives a line about each.
-        options: Those of the command.
-        which: Which of several runs it is: it is shown in one line, without its files.
+        outcome: Outcome of the run.
+        write: Writes the files of a result, and yields a line about each.
+        options: Options of the command.
+        which: Label of one run of several: it is shown in one line, without its files.
 
     Returns:
-        The exit code, and the error if standard output takes no more.
+        The exit code, and the error if standard output fails.
     """
     quiet, as_json = options.quiet, options.as_json
     output_error = None
@@ -148,7 +151,7 @@ def report(
 
 
 def show(result: "RunResult", output: TextIO, options: RunOptions, which: str | None) -> None:
-    """Print a result: a line of JSON, a line for people if it is one of several runs, or the summary."""
+    """Print a result: a line of JSON, a line of text if it is one of several runs, or the summary."""
     if options.as_json:
         print(json.dumps(result.to_json_object()), file=output)
         return
@@ -163,16 +166,16 @@ def show(result: "RunResult", output: TextIO, options: RunOptions, which: str | 
 
 
 def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
-    """Return what checks a scenario for a mode and what builds its run; the other mode is not imported.
+    """Return the functions that check a scenario and build its run. The other mode is not imported.
 
-    Raises ConfigError for options that need frames and a mode without.
+    Raises ConfigError for options that need frames in a mode without frames.
     """
     if options.mode == "prototype":
         from gradysim.prototype.run import PrototypeRun
         from gradysim.prototype.simulation import check_scenario
 
         require_no_names("--pcap", options.pcap, "no frames to capture")
-        require_no_names("--fates-at", options.fates_at, "no fates of frames")
+        require_no_names("--fates-at", options.fates_at, "no outcomes of frames")
 
         def check_all(scenario: "Scenario", *, is_built_next: bool) -> None:
             check_scenario(scenario)
@@ -208,7 +211,7 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
 
 
 def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
-    """Raise ConfigError if an option was given names of nodes, which prototype mode can do nothing for."""
+    """Raise ConfigError if an option that prototype mode does not support has names of nodes."""
     from gradysim.scenario.errors import ConfigError
 
     for name in names:
@@ -216,9 +219,9 @@ def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
 
 
 def check_names(scenarios: "Sequence[Scenario]", options: RunOptions, run_count: int) -> None:
-    """Raise ConfigError for a name that an option was given, and that no node has in any of `run_count` runs.
+    """Raise ConfigError for a name in an option that no node of `run_count` runs has.
 
-    `scenarios` are runs with all nodes that there are.
+    `scenarios` are runs that have all nodes.
     """
     from gradysim.scenario.scenario import check_node_names
 

@@ -30,12 +30,12 @@ STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP
 WATCHED = (*STOPPING, FORWARDED)
 
 _ONCE = [number for number in STOPPING if number != signal.SIGINT]
-"""The kernel, the shell and others may send the same one; the presses after it come by themselves."""
+"""The kernel, the shell and others may send the same signal. The next presses come automatically."""
 
 _GRACE_S = {1: 0.3, 2: 20.0}
-"""{presses: wall time in seconds until the next one comes by itself, after SIGTERM and SIGHUP}.
+"""{presses: wall time in seconds until the next one comes automatically, after SIGTERM and SIGHUP}.
 
-A callback that returns does so within the first time. The second one is for a worker that writes large files.
+A callback that returns does so in the first period. The second one is for a worker that writes large files.
 """
 
 _REPLIES: dict[int, bytes] = {signal.SIGINT: b"\nstopping after this step; Ctrl-C once more stops at once\n"}
@@ -48,12 +48,12 @@ class StopOnInterrupt:
     """While inside the `with` block, SIGINT, SIGTERM and SIGHUP set the flag that `should_stop()` reads.
 
     A press is any of these signals, once or from several senders. SIGTERM and SIGHUP count as the first press
-    only. They stay ignored if they are when the block is entered, as by `nohup`. Outside the main thread,
-    where Python allows no signal handlers, the flag is never set.
+    only. A signal that is ignored on entry stays ignored, as with `nohup`. Outside the main thread, where
+    Python allows no signal handlers, the flag is never set.
 
     Attributes:
-        workers: Ids of the processes that each press is passed on to; None if this process executes the runs.
-        exit_code: Of a command that was stopped: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
+        workers: Ids of the processes that each press is forwarded to; None if this process executes the runs.
+        exit_code: Exit code of a stopped command: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
     """
 
     def __init__(self) -> None:
@@ -74,7 +74,7 @@ class StopOnInterrupt:
         return self._count() > 0
 
     def become_worker(self) -> None:
-        """Handle the presses as a process that was forked from the command, which has the other end."""
+        """Handle presses in a process forked from the command, which has the other end."""
         self.workers = ()
         self._in_worker = True
         self._pid = os.getpid()
@@ -84,7 +84,7 @@ class StopOnInterrupt:
 
     @contextlib.contextmanager
     def at_once(self) -> Iterator[None]:
-        """While inside, the first press raises, too: what is only being built has no results to keep."""
+        """Raise at the first press inside the block: a run that is being built has no results to keep."""
         if self.should_stop():
             raise KeyboardInterrupt
         self._at_once = True
@@ -95,7 +95,10 @@ class StopOnInterrupt:
 
     @contextlib.contextmanager
     def executing(self) -> Iterator[None]:
-        """While inside, the second press raises in a worker. Later it does not: results are written."""
+        """Raise at the second press in a worker, inside the block.
+
+        Afterwards it does not: results are written.
+        """
         self._is_executing = True
         try:
             yield
@@ -121,7 +124,7 @@ class StopOnInterrupt:
         return max(self._presses.values(), default=0)
 
     def _end_if_forked(self) -> None:
-        """End a process that a protocol forked in a callback and that goes on: its parent does the run."""
+        """Exit if this is a process that a protocol's callback forked. Its parent executes the run."""
         if os.getpid() != self._pid:
             os._exit(OK)
 
@@ -129,7 +132,7 @@ class StopOnInterrupt:
         before = self._count()
         self._presses[number] = 1 if number in _ONCE else self._presses[number] + 1
         self._leave_dead_terminals()
-        if self._count() > before:  # otherwise another sender has reported this press already
+        if self._count() > before:  # otherwise another sender has reported this press
             self._press(number, before + 1)
 
     def _press(self, number: int, presses: int) -> None:
@@ -138,7 +141,7 @@ class StopOnInterrupt:
         raises = self._raises_at(presses)
         if raises and not self._in_worker:
             for each in self._previous:
-                signal.signal(each, signal.SIG_IGN)  # or one more would interrupt the end
+                signal.signal(each, signal.SIG_IGN)  # another one would interrupt the exit
         for worker in self.workers or ():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(worker, FORWARDED)
@@ -148,7 +151,7 @@ class StopOnInterrupt:
             if number != signal.SIGINT:
                 self._press_again_after(_GRACE_S.get(presses, 0.0))
             if presses == 1:
-                with contextlib.suppress(OSError):  # not by sys.stderr, which may be in the middle of a line
+                with contextlib.suppress(OSError):  # sys.stderr may be in the middle of a line
                     os.write(_ERROR_OUTPUT, _REPLIES.get(number, _REPLY))
 
     def _raises_at(self, presses: int) -> bool:
@@ -159,7 +162,7 @@ class StopOnInterrupt:
         return not self._in_worker and presses > (1 if self.workers is None else 2)
 
     def _press_again_after(self, duration_s: float) -> None:
-        """Let SIGALRM be the next press, after a wall time in seconds."""
+        """Make SIGALRM the next press, after a wall time in seconds."""
         handler = signal.signal(signal.SIGALRM, self._on_alarm)
         self._previous.setdefault(signal.SIGALRM, handler)
         self._has_timer = True
@@ -170,7 +173,7 @@ class StopOnInterrupt:
         self._on_signal(number, frame)
 
     def _leave_dead_terminals(self) -> None:
-        """Let nothing more be written to a terminal that was closed: an error would end the command."""
+        """Discard output to a closed terminal. An error would end the command."""
         for descriptor in self._terminals:
             if not os.isatty(descriptor):
                 os.dup2(os.open(os.devnull, os.O_RDWR), descriptor)

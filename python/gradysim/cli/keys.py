@@ -80,7 +80,7 @@ def list_keys(
 
 
 def rich_list(sections: "Iterable[KeySection]") -> "RenderableType":
-    """Return a paragraph per key, which breaks no name."""
+    """Return a paragraph per key. Names are not broken."""
     from rich.console import Group
     from rich.padding import Padding
     from rich.text import Text
@@ -96,7 +96,7 @@ def rich_list(sections: "Iterable[KeySection]") -> "RenderableType":
 
 
 def plain_text(sections: "Iterable[KeySection]") -> str:
-    """Return one line per key, its four columns separated by tabs, for other programs."""
+    """Return one line per key, with four columns separated by tabs, for other programs."""
     rows = [row for section in sections for row in section.rows]
     return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{row.meaning}\n" for row in rows)
 

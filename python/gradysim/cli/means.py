@@ -1,4 +1,4 @@
-"""`gradysim means`: means over the runs in a directory, as a table for people and as CSV."""
+"""`gradysim means`: means over the runs in a directory, as a table or as CSV."""
 
 import csv
 import shlex
@@ -63,9 +63,9 @@ def print_means(
 
 
 def means_table(means: "Sequence[Mean]") -> "Table":
-    """Return a row for each mean; the configuration and mode that all have in common are the title.
+    """Return a row for each mean. A configuration and mode shared by all rows become the title.
 
-    Names and values come from files: `Text` does not take their brackets for markup.
+    Names and values come from files: `Text` does not parse their brackets as markup.
     """
     from rich import box
     from rich.table import Table
@@ -97,7 +97,7 @@ def means_table(means: "Sequence[Mean]") -> "Table":
 
 
 def write_csv(means: "Sequence[Mean]", output: TextIO) -> None:
-    """Write a heading and a line for each mean, with all digits.
+    """Write a header and a line for each mean, with all digits.
 
     A variable with the name of another column, such as `mode`, gets the column `$mode`.
     """

@@ -1,4 +1,4 @@
-"""`gradysim run --memory`: a limit for the memory of each run."""
+"""`gradysim run --memory`: a memory limit for each run."""
 
 import contextlib
 import sys
@@ -10,7 +10,7 @@ _LARGEST = 2**62
 
 
 def checked_limit(text: str | None) -> int | None:
-    """Return a limit in bytes, None for none. Raises ConfigError, which names the option."""
+    """Return a limit in bytes; None for no limit. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.parameter_types import whole_bytes
 
@@ -24,10 +24,10 @@ def checked_limit(text: str | None) -> int | None:
 
 @contextlib.contextmanager
 def limited(limit_bytes: int | None) -> Iterator[None]:
-    """While inside, this process cannot have more bytes of memory: Python raises MemoryError.
+    """Limit the memory of this process inside the block: Python raises MemoryError.
 
-    The limit counts what the process allocates for itself, and neither the libraries nor the memory that it
-    shares with others. It ends with the block, so that there is memory to write results.
+    The limit counts memory that the process allocates, without libraries and shared memory. It ends with the
+    block, so that results can be written.
     """
     if limit_bytes is None or sys.platform != "linux":
         yield

@@ -22,7 +22,9 @@ _FILES = {
 
 NameArgument = Annotated[
     str | None,
-    Parameter(name="NAME", help="Of the directory and its .ini file; with --example that of an example."),
+    Parameter(
+        name="NAME", help="Name of the directory and its .ini file; with --example: name of the example."
+    ),
 ]
 ExampleOption = Annotated[
     Flag, Parameter(help="Copy the example NAME instead. Without a NAME, list the examples.")
@@ -30,7 +32,7 @@ ExampleOption = Annotated[
 
 
 def make_project(name: NameArgument = None, /, *, example: ExampleOption = False) -> int:
-    """Make a directory with a protocol, scenarios and a test to begin with, or with an example."""
+    """Make a directory with a protocol, scenarios and a test, or a copy of an example."""
     if example:
         return _list_examples() if name is None else _copy_example(name)
     if name is None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from gradysim.scenario.parameter_types import ParameterType, Scalar
 
 Mode = Literal["integrated", "prototype"]
-"""The same as in `gradysim.results.result`, which `gradysim --help` does not load."""
+"""Same as in `gradysim.results.result`, which `gradysim --help` does not load."""
 
 LogLevel = Literal["debug", "info", "warning", "error"]
 
@@ -31,7 +31,7 @@ SetOption = Annotated[
         help="KEY=VALUE: takes precedence over the file; may be repeated, for other keys.",
     ),
 ]
-"""Of several commands."""
+"""Shared by several commands."""
 
 
 def _integer(_type: type, tokens: "Sequence[Token]") -> int:
@@ -68,21 +68,21 @@ class PlotOptions:
     """Variable of the x axis: one of `${name=...}` in the .ini file, config or mode."""
 
     y: str | None = None
-    """Quantity, by the name that `gradysim means` prints, cpu_s or events. Of outcomes: a kind of frames or
+    """Quantity, by the name that `gradysim means` prints, cpu_s or events. For outcomes: a kind of frames or
     messages, such as `broadcast frames`."""
 
     by: Names = ()
-    """VARIABLE...: a curve for each value; by default of all variables that differ besides x. --kind diff
+    """VARIABLE...: a curve for each value; by default for all variables that differ except x. --kind diff
     compares the values of the first one."""
 
     where: Names = ()
     """VARIABLE=VALUE...: only these runs, such as config=Study jitter=1ms jitter=10ms."""
 
     baseline: str | None = None
-    """Of --kind diff: the value that the others are compared with; by default the first one."""
+    """Value that the others are compared with, for --kind diff; by default the first one."""
 
     omit: Names = ()
-    """OUTCOME...: of --kind outcomes, outcomes to leave out, such as `below sensitivity`."""
+    """OUTCOME...: outcomes to leave out, such as `below sensitivity`, for --kind outcomes."""
 
     log: Annotated[
         tuple[Literal["x", "y"], ...],
@@ -114,72 +114,71 @@ class RunOptions:
     """Seed of run 0, to which run N adds N; by default the file's seed-set."""
 
     result_dir: Path | None = None
-    """Write each run's JSON object to DIR/CONFIG-#RUN.MODE.json."""
+    """Write the JSON object of each run to DIR/CONFIG-#RUN.MODE.json."""
 
     resume: Flag = False
-    """Leave out runs whose file in --result-dir is complete and of the same settings, seed and files
-    (protocols, obstacles), with what --scalars, --vectors, --pcap, --replay and --fates-at ask for."""
+    """Skip runs whose file in --result-dir is complete and has the same settings, seed and files (protocols,
+    obstacles), with the output of --scalars, --vectors, --pcap, --replay and --fates-at."""
 
     replace: Flag = False
-    """Replace results of other settings or seeds in --result-dir. Without it they are an error."""
+    """Replace results of other settings or seeds in --result-dir. Without this option they are an error."""
 
     jobs: Annotated[Integer, Parameter(alias="-j")] = 1
-    """How many runs at once."""
+    """Number of runs at the same time."""
 
     memory: str | None = None
-    """Memory that each run may allocate, such as 2GB. A run that needs more ends, and the others go on."""
+    """Memory that each run may allocate, such as 2GB. A run that needs more ends, and the others continue."""
 
     scalars: Flag = False
-    """Write the numbers of each run to DIR/CONFIG-#RUN.MODE.sca for OMNeT++'s analysis tools, DIR as in
+    """Write the numbers of each run to DIR/CONFIG-#RUN.MODE.sca for OMNeT++'s analysis tools. DIR is
     --result-dir (default: results)."""
 
     vectors: Names = ()
-    """NODE...: write what tracked variables and positions of these nodes were over time to
-    DIR/CONFIG-#RUN.MODE.vec, DIR as above. A node (uavs[0]), a group (uavs), or all."""
+    """NODE...: write tracked variables and positions of these nodes over time to DIR/CONFIG-#RUN.MODE.vec. A
+    node (uavs[0]), a group (uavs), or all."""
 
     pcap: Names = ()
-    """NODE...: write what the radios of these nodes send and receive to DIR/CONFIG-#RUN-NODE.pcap (that of
-    its wlan[1]: …-wlan1.pcap), DIR as in --result-dir (default: results). A node (uavs[0]), a group (uavs),
-    or all."""
+    """NODE...: write sent and received frames of these nodes to DIR/CONFIG-#RUN-NODE.pcap (for wlan[1]:
+    …-wlan1.pcap). A node (uavs[0]), a group (uavs), or all."""
 
     replay: Names = ()
-    """NODE...: write what happens at these nodes to DIR/CONFIG-#RUN.MODE.html, DIR as above,
-    a page that any browser shows. A node (uavs[0]), a group (uavs), or all."""
+    """NODE...: write a page with all events at these nodes to DIR/CONFIG-#RUN.MODE.html, for any browser. A
+    node (uavs[0]), a group (uavs), or all."""
 
     trace: Names = ()
     """NODE...: print a line for each event at these nodes: frames, receptions and their outcomes, timers,
     commands, tracked variables. A node (uavs[0]), a group (uavs), or all."""
 
     log_level: LogLevel | None = None
-    """Print what protocols log from this level on, by default info, with --quiet warning. With debug, also
-    what gradysim logs."""
+    """Print what protocols log from this level on; default: info, with --quiet warning. With debug, also
+    print what gradysim logs."""
 
     fates_at: Names = ()
-    """NODE...: report what became of the frames that reached these nodes, who interfered, and what became of
-    the messages that they sent. A node (uavs[0]), a group (uavs), or all."""
+    """NODE...: report the outcomes of frames at these nodes, the interferers, and the outcomes of messages
+    that these nodes sent. A node (uavs[0]), a group (uavs), or all."""
 
     as_json: Annotated[Flag, Parameter(name="--json")] = False
-    """Print one JSON object per run, one per line, no more."""
+    """Print only one JSON object per run, each on one line."""
 
     details: Flag = False
     """Print all numbers of each run, with tables of nodes, outcomes and delays."""
 
     quiet: Flag = False
-    """No progress bar and no summaries: warnings and failures only."""
+    """Print warnings and failures only, without progress bar and summaries."""
 
     @property
     def directory(self) -> Path:
-        """The directory of all files."""
+        """Directory of all files."""
         return DEFAULT_DIR if self.result_dir is None else self.result_dir
 
     @property
     def is_writer(self) -> bool:
-        """Whether runs write any file to the directory."""
+        """Whether runs write a file to the directory."""
         return self.writes_files or bool(self.pcap)
 
     @property
     def writes_files(self) -> bool:
-        """Whether the directory has to exist before the runs; captures make it themselves."""
+        """Whether the directory must exist before the runs. Captures create it themselves."""
         return self.result_dir is not None or self.scalars or bool(self.vectors) or bool(self.replay)
 
 
@@ -194,25 +193,25 @@ class ViewOptions:
     """Number of the run."""
 
     mode: Mode = "integrated"
-    """As of `gradysim run`."""
+    """As in `gradysim run`."""
 
     settings: SetOption = ()
 
     seed: Integer | None = None
-    """As of `gradysim run`."""
+    """As in `gradysim run`."""
 
     host: str = "127.0.0.1"
-    """Address that the server listens on: 0.0.0.0 for all, such as in a container."""
+    """Address of the server: 0.0.0.0 for all addresses of the machine, such as in a container."""
 
     port: Integer = 0
-    """Port of the server; 0 for a free one."""
+    """Port of the server; 0 for any free port."""
 
     browser: Annotated[bool, Parameter(negative="--no-browser", show_default=False)] = True
     """Open the page. Otherwise only its address is printed."""
 
 
 def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
-    """Return the value that an option says. Raises ConfigError, which names the option."""
+    """Return the value of an option. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors import BadValue, ConfigError
     from gradysim.scenario.expressions import parse_value
 

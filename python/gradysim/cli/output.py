@@ -1,4 +1,4 @@
-"""The files of a run of `gradysim run`: their names, and how they are written."""
+"""Files of a run of `gradysim run`: their names, and how they are written."""
 
 import errno
 import os
@@ -37,7 +37,7 @@ def replay_file(scenario: "Scenario", options: RunOptions) -> Path:
 
 
 def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
-    """Return what writes the replay of a run, and its trace; None if neither is asked for.
+    """Return the sink for the replay of a run, and for its trace; None if neither is requested.
 
     An earlier replay is replaced when the run has ended. Raises OSError if the replay cannot be written.
     """
@@ -65,7 +65,7 @@ def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None
 
 
 def log_level(options: RunOptions) -> int:
-    """Return the level from which on log lines are printed, as a number of `logging`."""
+    """Return the lowest level of printed log lines, as a number of `logging`."""
     import logging
 
     name = options.log_level or ("warning" if options.quiet else "info")
@@ -80,7 +80,7 @@ def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
 
 
 def captures_under_way(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
-    """Return {id of a node: the file that its radio writes}: earlier captures are replaced after the run."""
+    """Return {id of a node: the file that its radio writes}. Earlier captures are replaced after the run."""
     from gradysim.results.durable import unfinished_file
 
     files = captures(scenario, options)
@@ -106,18 +106,18 @@ def omnetpp_file(scenario: "Scenario", options: RunOptions, suffix: str) -> Path
 
 
 def files_beside_result(scenario: "Scenario", options: RunOptions) -> list[Path]:
-    """Return all files of a run that are asked for, but for that of its result."""
+    """Return all requested files of a run, except the result."""
     return [*files_of_the_run_itself(scenario, options), *files_for_omnetpp(scenario, options)]
 
 
 def files_of_the_run_itself(scenario: "Scenario", options: RunOptions) -> list[Path]:
-    """Return the files that are asked for and are written while the run goes on."""
+    """Return the requested files that are written during the run."""
     replays = [replay_file(scenario, options)] if options.replay else []
     return [*capture_files_of(scenario, options), *replays]
 
 
 def files_under_way(scenario: "Scenario", options: RunOptions) -> list[Path]:
-    """Return all names of files that may be written while the run goes on."""
+    """Return all names of files that may be written during the run."""
     from gradysim.results.durable import unfinished_file
 
     files = files_of_the_run_itself(scenario, options)
@@ -125,32 +125,34 @@ def files_under_way(scenario: "Scenario", options: RunOptions) -> list[Path]:
 
 
 def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
-    """Return the file of scalars and that of vectors, as far as they are asked for, in this order."""
+    """Return the files of scalars and of vectors, if requested, in this order."""
     suffixes = [*([".sca"] if options.scalars else []), *([".vec"] if options.vectors else [])]
     return [omnetpp_file(scenario, options, suffix) for suffix in suffixes]
 
 
 def make_result_dir(directory: Path) -> None:
-    """Make the folder of --result-dir. Raises ConfigError, which names the option."""
+    """Create the directory of --result-dir. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors import ConfigError
 
     try:
         directory.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        reason = "it is no folder" if os.path.lexists(directory) else error.strerror or str(error)
-        raise ConfigError(f"--result-dir {directory}: {reason}; expected a folder, or a new name") from error
+        reason = "it is not a directory" if os.path.lexists(directory) else error.strerror or str(error)
+        raise ConfigError(
+            f"--result-dir {directory}: {reason}; expected a directory, or a new name"
+        ) from error
 
 
 def check_may_be_written_to(directory: Path) -> None:
-    """Raise ConfigError, which names the option, if no file can be made in it."""
+    """Raise ConfigError, which names the option, if the directory is not writable."""
     from gradysim.scenario.errors import ConfigError
 
     if not os.access(directory, os.W_OK | os.X_OK):
-        raise ConfigError(f"--result-dir {directory}: it takes no files from you; expected another folder")
+        raise ConfigError(f"--result-dir {directory}: it is not writable; expected another directory")
 
 
 def check_sqlite(options: RunOptions) -> None:
-    """Raise ConfigError for files that this Python cannot write, before runs that take hours."""
+    """Raise ConfigError for files that this Python cannot write, before long runs."""
     if not (options.scalars or options.vectors):
         return
     try:
@@ -163,25 +165,25 @@ def check_sqlite(options: RunOptions) -> None:
 
 
 def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
-    """Raise ConfigError for a name of a file that is too long for the folder, before the first run begins."""
+    """Raise ConfigError if the name of a file is too long for the directory, before the first run."""
     from gradysim.scenario.errors import ConfigError
 
-    last = scenarios[-1]  # with the longest number
+    last = scenarios[-1]  # it has the longest number
     folders = (options.directory, *options.directory.parents)
-    there = next((folder for folder in folders if folder.is_dir()), Path())  # captures make theirs themselves
+    there = next((folder for folder in folders if folder.is_dir()), Path())  # captures create their own
     for file in _all_files(last, options):
         try:
             os.lstat(there / file.name)
         except OSError as error:
             if error.errno == errno.ENAMETOOLONG:
                 raise ConfigError(
-                    f"--result-dir {options.directory}: {file.name} would be too long a name of a file in it;"
+                    f"--result-dir {options.directory}: {file.name} is too long for a name of a file in it;"
                     " expected a shorter name of the configuration"
                 ) from error
 
 
 def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
-    """Give the files that a run will write, by the names that they have until they are complete."""
+    """Yield the files that a run will write, with their names until they are complete."""
     from gradysim.results.durable import LONGEST_PID, unfinished_file
     from gradysim.results.files import run_file
 
@@ -193,14 +195,13 @@ def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
 
 
 def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
-    """Write what was asked for of a run, and give a line about each file.
+    """Write the requested files of a run, and yield a line about each file.
 
-    An interrupted run writes nothing if there is a complete result of it with the same settings. Files for
-    OMNeT++ of an earlier run that this one does not replace are removed. Raises OSError, with the name of the
-    file.
+    An interrupted run does not replace a complete result with the same settings. Files for OMNeT++ of an
+    earlier run that this one does not replace are removed. Raises OSError, with the name of the file.
 
-    The result comes first: it is there if the disk has no room for the others. Once they are complete it is
-    written again, and names them.
+    The result comes first, in case the disk has no room for the others. When they are complete, it is written
+    again and names them.
     """
     from gradysim.results.durable import finish, unfinished_file
     from gradysim.results.files import files_changed_since, run_file, write_run_file
@@ -234,9 +235,9 @@ def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) 
 
 
 def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterator[str]:
-    """Remove what a reader would take for scalars or vectors of this run, and are those of another one.
+    """Remove scalars and vectors of other runs that a reader would take for files of this run.
 
-    Those with the same settings stay until they are replaced.
+    Files with the same settings stay until they are replaced.
     """
     for suffix, is_replaced in ((".sca", options.scalars), (".vec", bool(options.vectors))):
         path = omnetpp_file(scenario, options, suffix)
@@ -247,7 +248,7 @@ def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterat
 
 
 def have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
-    """Whether files for OMNeT++ are those of one run, with the attributes that it has now."""
+    """Return whether files for OMNeT++ are from one run, with its current attributes."""
     from gradysim.results.omnetpp import lasting_attributes, storable
     from gradysim.results.omnetpp_reader import run_attributes
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
-    """Draw a figure of the runs in a directory, and write its numbers and their origin beside it."""
+    """Draw a figure of the runs in a directory, and write its numbers and their origin next to it."""
     from gradysim.plots import save_figure
     from gradysim.scenario.errors import ConfigError
 
@@ -42,7 +42,7 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
 
 
 def _with_variable(directory: Path, runs: "Runs", variable: str | None) -> "Runs":
-    """Return the runs that have the variable of the x axis, and say how many others there are."""
+    """Return the runs that have the variable of the x axis, and print the number of others."""
     from gradysim.results.run_table import Runs, variables_of
 
     kept = Runs(run for run in runs if variable in variables_of(run))

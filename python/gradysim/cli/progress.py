@@ -1,4 +1,4 @@
-"""What a command is at, on a terminal: `building 1,000,000 nodes, 12 s`, and the progress bar of a run."""
+"""Progress on a terminal: `building 1,000,000 nodes, 12 s`, and the progress bar of a run."""
 
 import math
 import sys
@@ -13,19 +13,19 @@ if TYPE_CHECKING:
 
 FIRST_AFTER_S = 2.0
 EVERY_S = 1.0
-"""Wall time until it says something, and until it says so again."""
+"""Wall time until the first report, and between two reports."""
 
 
 class Ending(Protocol):
-    """A `threading.Event`, or what stands for one in tests."""
+    """A `threading.Event`, or a replacement in tests."""
 
     def wait(self, timeout: float) -> bool:
-        """Wait for it, so long at most; return whether it came."""
+        """Wait for the event, at most this long; return whether it was set."""
 
 
 @contextmanager
 def waiting(what: str, *, shown: bool) -> Iterator[None]:
-    """Tell on the error output that it is at `what`, if it takes seconds, `shown` and that is a terminal."""
+    """Print `what` to standard error while it takes seconds, if `shown` and on a terminal."""
     if not (shown and sys.stderr.isatty()):
         yield
         return
@@ -40,10 +40,10 @@ def waiting(what: str, *, shown: bool) -> Iterator[None]:
 
 
 def tell_until(ended: Ending, what: str, terminal: TextIO) -> None:
-    """Say it again and again in one line, which is empty in the end."""
+    """Print it repeatedly in one line, and clear the line at the end."""
     began = monotonic()
     line = ""
-    with suppress(OSError):  # a terminal that has gone is no reason to stop
+    with suppress(OSError):  # a closed terminal is not a reason to stop
         while not ended.wait(EVERY_S if line else FIRST_AFTER_S):
             line = f"{what}, {monotonic() - began:.0f} s"
             print(f"\r{line}", end="", file=terminal, flush=True)
@@ -54,7 +54,7 @@ def tell_until(ended: Ending, what: str, terminal: TextIO) -> None:
 class RunProgress:
     """A bar on `console` that `update` moves: simulated time, speed, remaining time.
 
-    It is gone when the `with` block ends. It draws only when `update` is called, so it needs no thread.
+    It disappears at the end of the `with` block. It draws only in `update`, so it needs no thread.
     """
 
     def __init__(self, console: "Console", title: str, limit_s: float) -> None:
@@ -79,7 +79,7 @@ class RunProgress:
         self._task = self._bar.add_task(title, total=total, reached="", speed="")
 
     def __enter__(self) -> Self:
-        with suppress(OSError):  # a terminal that has gone is no reason to stop, here and below
+        with suppress(OSError):  # a closed terminal is not a reason to stop, here and below
             self._bar.start()
         return self
 

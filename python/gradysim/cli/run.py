@@ -1,4 +1,4 @@
-"""`gradysim run`: checks the runs of a configuration, carries them out, and says what came out."""
+"""`gradysim run`: checks the runs of a configuration, executes them, and reports their results."""
 
 import gc
 import os
@@ -47,20 +47,20 @@ if TYPE_CHECKING:
     """The exit code of a run, and the error if standard output takes no more."""
 
     CarryOut = Callable[[int], Reported]
-    """Carries out the run at a place of a study."""
+    """Executes the run at a position of a study."""
 
 
 DEFAULTS = RunOptions()
 
 _MOST_SUBMITTED = 1000
-"""Runs that an executor is given before the first of them has ended."""
+"""Number of runs submitted to an executor before the first of them has ended."""
 
 _SHOW_CURSOR = "\r\x1b[?25h"
-"""A progress bar hides it, and a worker that dies leaves it so."""
+"""A progress bar hides the cursor, and a dead worker does not show it again."""
 
 
 def run(file: FileArgument, /, *, options: RunOptions = DEFAULTS) -> int:
-    """Run the runs of a configuration and say what came out."""
+    """Run the runs of a configuration and report their results."""
     from gradysim.encapsulator.run_context import gc_paused
 
     with gc_paused():  # nothing of what is read is garbage
@@ -68,13 +68,13 @@ def run(file: FileArgument, /, *, options: RunOptions = DEFAULTS) -> int:
 
 
 def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None) -> int:
-    """Do what `gradysim run` does, and return its exit code.
+    """Run `gradysim run` and return its exit code.
 
     Args:
         file: The .ini file.
-        options: Those of the command.
-        executor: Carries out the runs; the caller shuts it down. By default each run has its own process.
-            What `submit` gets cannot be pickled.
+        options: Options of the command.
+        executor: Executes the runs; the caller shuts it down. By default each run has its own process. Calls
+            passed to `submit` cannot be pickled.
     """
     from gradysim.cli.execution import check_names, execute, report, simulator
     from gradysim.cli.interrupt import StopOnInterrupt
@@ -84,7 +84,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     from gradysim.results.run_lock import RunLockedError, remove_left_over_files
     from gradysim.scenario.errors import ConfigError, ErrorCollector
 
-    gc.freeze()  # modules are not among the open files, which the runner looks for
+    gc.freeze()  # excludes modules from the open files, which the runner searches
     bar = not options.quiet and not options.as_json
     try:
         check_jobs(options.jobs)
@@ -92,7 +92,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         check_sqlite(options)
         if options.writes_files:
             make_result_dir(options.directory)
-        # What protocols print when they are imported must not get between the JSON objects.
+        # Output of protocols at import must not get between the JSON objects.
         with redirect_stdout(sys.stderr) if options.as_json else nullcontext():
             with waiting(f"reading {file}", shown=bar):
                 study = check(file, options.config, options.runs, options.settings, options.seed)
@@ -188,7 +188,7 @@ def lock_of(study: "Study", place: int, options: RunOptions) -> AbstractContextM
 
 
 def line_of_runs(study: "Study") -> "Callable[[Scenario], str]":
-    """Return what gives the beginning of the line of a run; all have one length."""
+    """Return a function that returns the beginning of a run's line. All have the same length."""
     from gradysim.scenario.sweep import text_of_iterations
 
     number_width = len(str(study.numbers[-1]))
@@ -202,7 +202,7 @@ def line_of_runs(study: "Study") -> "Callable[[Scenario], str]":
 
 
 def error_terminal() -> "Console | None":
-    """Return the terminal that shows a progress bar, if the error output is one."""
+    """Return the terminal for a progress bar, if standard error is one."""
     if not sys.stderr.isatty():
         return None
     import rich.progress  # noqa: F401 (before processes are forked)
@@ -225,11 +225,11 @@ def import_what_runs_use(options: RunOptions) -> None:
 
 
 def run_all(study: "Study", left: Sequence[int], carry_out: "CarryOut", executor: "Executor") -> int:
-    """Let `executor` carry out the runs at the places `left`, and return the exit code of the command.
+    """Let `executor` execute the runs at the positions `left`, and return the exit code of the command.
 
-    `carry_out` writes and shows what came out of a run. After a run that does not end with OK no other one
-    starts. A worker that dies says nothing about the runs of others: they go on. A standard output that takes
-    no more ends the command, with the files of all runs that have started.
+    `carry_out` writes and prints the results of a run. After a run that does not end with OK, no other run
+    starts. The death of a worker does not affect other runs: they continue. If standard output fails, the
+    command ends with the files of all started runs.
     """
     from concurrent.futures import CancelledError
 
@@ -274,7 +274,7 @@ def run_all(study: "Study", left: Sequence[int], carry_out: "CarryOut", executor
     except KeyboardInterrupt:  # the third one
         cancel()
     complete = len(codes) == len(left) and not any(codes.values())
-    with suppress(OSError):  # an error output that takes no more
+    with suppress(OSError):  # standard error may fail, too
         if output_error is not None and not (complete and isinstance(output_error, BrokenPipeError)):
             print(f"standard output: {output_error.strerror}", file=sys.stderr)
         if not complete:
@@ -285,7 +285,7 @@ def run_all(study: "Study", left: Sequence[int], carry_out: "CarryOut", executor
 
 
 _OTHERS_GO_ON = {OK, LOCKED, OVER_MEMORY}
-"""Codes of runs that say nothing about the others."""
+"""Exit codes of runs that do not stop the others."""
 
 
 def _may_others_go_on(ended: "Future[Reported]") -> bool:
@@ -299,7 +299,7 @@ def _may_others_go_on(ended: "Future[Reported]") -> bool:
 
 
 def _exit_code(codes: Sequence[int], run_count: int) -> int:
-    """Return the exit code of runs that are not all OK: the first failure, then what stopped the others."""
+    """Return the exit code of runs that are not all OK: the first failure, then the reason to stop."""
     failed = [code for code in codes if code not in (*_OTHERS_GO_ON, INTERRUPTED)]
     if failed:
         return failed[0]
@@ -309,7 +309,7 @@ def _exit_code(codes: Sequence[int], run_count: int) -> int:
 
 
 def _shown(future: "Future[Reported]", name: str) -> "Reported":
-    """Wait for a run, show what it printed, and return what `carry_out` does."""
+    """Wait for a run, print its output, and return the value of `carry_out`."""
     from gradysim.cli.runner import RunFuture, WorkerError
 
     told, output_error = "", None
@@ -320,7 +320,7 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
         told = f"{_SHOW_CURSOR if sys.stderr.isatty() else ''}{name}: {error}\n"
     printed = future.printed if isinstance(future, RunFuture) else ()
     output, error_output = [text.decode("utf-8", errors="replace") for text in printed] or ("", "")
-    with suppress(OSError):  # it takes no more, but the others have to be waited for
+    with suppress(OSError):  # output fails, but the other runs must end
         print(error_output + told, end="", file=sys.stderr, flush=True)
     try:
         print(output, end="", flush=True)
@@ -330,7 +330,7 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
 
 
 def check_jobs(jobs: int) -> None:
-    """Raise ConfigError for a number of runs at once that cannot be, before anything is read."""
+    """Raise ConfigError for an invalid number of jobs, before reading files."""
     from gradysim.scenario.errors import ConfigError
 
     if jobs < 1:
@@ -343,7 +343,7 @@ _ENDED = {INTERRUPTED: "was interrupted", LOCKED: "was left out"}
 
 
 def _print_unfinished(study: "Study", left: Sequence[int], codes: Mapping[int, int]) -> None:
-    """Say on the error output which of several runs are missing; `codes` are those of the runs that began."""
+    """Print to standard error which of several runs are missing; `codes` are those of the started runs."""
     if len(left) > 1:
         numbers = [study.numbers[place] for place in left]
         done = [number for number in numbers if codes.get(number) == OK]
@@ -355,9 +355,9 @@ def _print_unfinished(study: "Study", left: Sequence[int], codes: Mapping[int, i
 def text_of_unfinished(
     config: str, done: Sequence[int], ended: Mapping[int, str], left: Sequence[int]
 ) -> str:
-    """Say which runs of `config` are done, which `ended` otherwise and how, and which are `left`.
+    """Return which runs of `config` are done, which `ended` otherwise, and which are `left`.
 
-    The numbers of each increase; how a run ended is "failed" or "was interrupted".
+    Numbers are in increasing order. `ended` is "failed" or "was interrupted".
     """
     which = [f"run {number} {how}" for number, how in ended.items()]
     count = len(done) + len(ended) + len(left)

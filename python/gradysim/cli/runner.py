@@ -1,6 +1,6 @@
-"""Executor of runs: each one in a fresh fork of this process, so that no run sees what another one left.
+"""Executor of runs: each run has a fresh fork of this process, so that runs do not affect each other.
 
-A forked process has the engine, the scenario and the protocols loaded, so nothing has to be passed to it.
+A forked process has the engine, the scenario and the protocols loaded. Nothing has to be passed to it.
 """
 
 import contextlib
@@ -31,7 +31,7 @@ T = TypeVar("T")
 _WRITTEN_TO = (io.TextIOWrapper, io.BufferedWriter)
 
 _PR_SET_PDEATHSIG = 1
-"""Of prctl(2): the signal that the kernel sends to a process when its parent dies."""
+"""Option of prctl(2): the signal that the kernel sends to a process when its parent dies."""
 
 _prctl = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
 
@@ -40,8 +40,8 @@ class WorkerError(Exception):
     """The process of a run could not start, or ended before the run did.
 
     Attributes:
-        exit_code: What the process exited with, the negative number of the signal that killed it, or None if
-            it did not start.
+        exit_code: Exit code of the process, or the negative number of the signal that killed it. None if it
+            did not start.
     """
 
     def __init__(self, text: str, exit_code: int | None) -> None:
@@ -50,11 +50,10 @@ class WorkerError(Exception):
 
 
 class RunFuture(Future[T]):
-    """The result of a task to come. Its `result()` lets the executor work, which has no thread for that.
+    """Future of a task. `result()` runs the executor, which has no thread.
 
     Attributes:
-        printed: What the task printed to standard output and to the error output; empty if that was not
-            captured.
+        printed: Output of the task to standard output and standard error; empty if it was not captured.
     """
 
     def __init__(self, executor: "ForkExecutor") -> None:
@@ -71,45 +70,45 @@ class RunFuture(Future[T]):
 
 @dataclass(frozen=True)
 class _Worker:
-    """A process under way, and the files that it writes to."""
+    """A running process, and its output files."""
 
     future: RunFuture[Any]
     returned: IO[bytes]
-    """The end of a pipe: here that to read from, in the worker that to write to."""
+    """One end of a pipe: the read end here, the write end in the worker."""
     printed: tuple[IO[bytes], ...]
-    """Where its standard output and its error output go, if they are captured."""
+    """Its standard output and standard error, if they are captured."""
 
 
 class ForkExecutor(Executor):
-    """Calls each task in a process of its own that is forked when its turn comes, `jobs` at a time.
+    """Calls each task in a separate forked process, `jobs` at a time.
 
-    Tasks start in the order in which they were submitted. A process that dies fails its own task only, and so
-    does an exception, whose traceback is printed. What a task returns has to fit into a pipe: 64 kB at most.
-    Workers end with this process. After Ctrl-C no task starts: those that wait are canceled.
+    Tasks start in the order of submission. A process that dies fails its own task only. So does an exception,
+    whose traceback is printed. The return value of a task must fit into a pipe: 64 kB at most. Workers end
+    with this process. After Ctrl-C no task starts: pending tasks are canceled.
 
-    What tasks print is captured where several print at once, or where the streams of this process are not
-    files: see `RunFuture.printed`. Where the system cannot fork, tasks are called in this process.
+    The output of tasks is captured if several print at once, or if the streams of this process are not files:
+    see `RunFuture.printed`. If the system cannot fork, tasks are called in this process.
     """
 
     def __init__(self, jobs: int, interrupt: StopOnInterrupt) -> None:
-        """Prepare for `jobs` tasks at a time; `interrupt` passes Ctrl-C on to the workers."""
+        """Prepare for `jobs` tasks at a time; `interrupt` forwards Ctrl-C to the workers."""
         self._jobs = jobs
         self._interrupt = interrupt
         self._captures = jobs > 1 or not (_is_file(sys.stdout) and _is_file(sys.stderr))
         self._waiting: deque[tuple[RunFuture[Any], Callable[[], Any]]] = deque()
         self._workers: dict[int, _Worker] = {}
         self._files = _open_files()
-        gc.freeze()  # a collection in a worker would copy the pages of all that is loaded
+        gc.freeze()  # a collection in a worker would copy the pages of all loaded objects
         interrupt.workers = self._workers.keys()
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> RunFuture[T]:
-        """Let `fn` be called with these arguments when its turn comes."""
+        """Submit a call of `fn` with these arguments."""
         future: RunFuture[T] = RunFuture(self)
         self._waiting.append((future, lambda: fn(*args, **kwargs)))
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Kill the workers that still run. Results that are wanted have to be asked for before."""
+        """Kill the running workers. Fetch wanted results before."""
         while self._workers:
             pid, worker = self._workers.popitem()
             with contextlib.suppress(ProcessLookupError, ChildProcessError):
@@ -118,7 +117,7 @@ class ForkExecutor(Executor):
             _finish(worker, -signal.SIGKILL)
 
     def advance(self) -> None:
-        """Start the tasks that there is room for, and wait for the end of a worker."""
+        """Start tasks while there is room, and wait for the end of a worker."""
         if self._interrupt.should_stop():
             for future, _ in self._waiting:
                 future.cancel()
@@ -128,7 +127,7 @@ class ForkExecutor(Executor):
                 self._start(future, call)
         if self._workers:
             pid, status = os.wait()
-            worker = self._workers.pop(pid, None)  # a module of the user may have started processes, too
+            worker = self._workers.pop(pid, None)  # the user's modules may have started processes, too
             if worker is not None:
                 _finish(worker, os.waitstatus_to_exitcode(status))
 
@@ -139,7 +138,7 @@ class ForkExecutor(Executor):
             except Exception as error:
                 future.set_exception(error)
             return
-        for file in (sys.stdout, sys.stderr, *self._files):  # or each worker would write it once more
+        for file in (sys.stdout, sys.stderr, *self._files):  # or each worker would write the buffer again
             _flush(file)
         with contextlib.ExitStack() as files:
             try:
@@ -155,14 +154,14 @@ class ForkExecutor(Executor):
                         self._work(_Worker(future, ours, printed), call, parent)
                     self._workers[pid] = _Worker(future, theirs, printed)
                 ours.close()
-            except OSError as error:  # there are too many processes or files, or no room for files
+            except OSError as error:  # too many processes or files, or a full disk
                 problem = f"the process cannot start: {error.strerror or error}"
                 future.set_exception(WorkerError(problem, None))
             else:
                 files.pop_all()  # `_finish` closes them
 
     def _work(self, worker: _Worker, call: Callable[[], Any], parent: int) -> NoReturn:
-        """Be the worker: call the task, leave what it returns or raises in a file, and exit."""
+        """Run as the worker: call the task, write its result or exception to a file, and exit."""
         code = 1
         try:
             _end_with(parent)
@@ -186,10 +185,10 @@ class ForkExecutor(Executor):
 
 
 def _finish(worker: _Worker, exit_code: int) -> None:
-    """Pass on what came out of a worker that has ended."""
+    """Pass on the result of a worker that has ended."""
     worker.future.printed = tuple(_content(file) for file in worker.printed)
     with worker.returned as pipe:
-        os.set_blocking(pipe.fileno(), False)  # a process that the worker began may still hold the other end
+        os.set_blocking(pipe.fileno(), False)  # a child of the worker may hold the other end
         returned = pipe.read() if exit_code == 0 else None
     if returned:
         worker.future.set_result(pickle.loads(returned))
@@ -202,14 +201,14 @@ def _finish(worker: _Worker, exit_code: int) -> None:
 
 
 def _content(file: IO[bytes]) -> bytes:
-    """Return all of a file, and close it."""
+    """Return the content of a file, and close it."""
     with file:
         file.seek(0)
         return file.read()
 
 
 def _is_file(stream: TextIO) -> bool:
-    """Return whether a stream has a file descriptor, which a forked process can write to as well."""
+    """Return whether a stream has a file descriptor, which a forked process can use."""
     try:
         stream.fileno()
     except (OSError, AttributeError):
@@ -218,9 +217,9 @@ def _is_file(stream: TextIO) -> bool:
 
 
 def _redirect(output: IO[bytes], error_output: IO[bytes]) -> None:
-    """Let all that this process prints go to these files, and let it read nothing.
+    """Redirect the output of this process to these files, and its input to nothing.
 
-    A line is in the file as soon as it is printed: a process that is killed has no time to write more.
+    Each line is written at once: a killed process has no time to flush.
     """
     if sys.stdout.isatty():
         os.environ["COLUMNS"] = str(shutil.get_terminal_size().columns)
@@ -234,37 +233,37 @@ def _stream(file: IO[bytes], descriptor: int) -> TextIO:
 
 
 def _open_files() -> list[io.IOBase]:
-    """Return the files that text or bytes may be written to, of those opened since `gc.freeze()`."""
+    """Return the writable files opened since `gc.freeze()`."""
     return [each for each in gc.get_objects() if issubclass(type(each), _WRITTEN_TO)]
 
 
 def _flush(file: IO[Any] | io.IOBase) -> None:
-    with contextlib.suppress(OSError, ValueError):  # a file that takes no more, or that is closed
+    with contextlib.suppress(OSError, ValueError):  # a full disk, or a closed file
         file.flush()
 
 
 def _end_with(parent: int) -> None:
-    """Let this process be killed when its parent dies, however that happens. Linux only."""
+    """Kill this process when its parent dies. Linux only."""
     if _prctl is not None:
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:  # it has died already
+        if os.getppid() != parent:  # it has already died
             os._exit(1)
 
 
 def _end_with_worker(worker: int, thread: int) -> None:
-    """Let a process that a callback forked be killed when the worker ends. Linux only.
+    """Kill a process that a callback forked when the worker ends. Linux only.
 
-    If it returns from the callback, it goes on with the run, and may wait for threads that it does not have.
-    The kernel sends the signal when the forking thread ends, so threads of the user are not concerned.
+    If it returns from the callback, it continues the run, and may wait for threads that it does not have. The
+    kernel sends the signal when the forking thread ends, so threads of the user are not affected.
     """
     if _prctl is not None and os.getppid() == worker and threading.get_ident() == thread:
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def keep_from_forks(files: Iterable[Path]) -> None:
-    """Let processes that callbacks fork from now on write nothing to these files. Linux only.
+    """Prevent processes forked by callbacks from writing to these files. Linux only.
 
-    They inherit the descriptors and what is buffered: both processes would write it.
+    They inherit descriptors and buffers: both processes would write the same data.
     """
     names = {os.path.realpath(file) for file in files}
     os.register_at_fork(after_in_child=partial(_leave_files, names))
@@ -273,14 +272,14 @@ def keep_from_forks(files: Iterable[Path]) -> None:
 def _leave_files(names: Collection[str]) -> None:
     with contextlib.suppress(OSError):  # no /proc
         for descriptor in os.listdir("/proc/self/fd"):
-            with contextlib.suppress(OSError):  # that of the directory itself, which is closed
+            with contextlib.suppress(OSError):  # the descriptor of the directory itself is closed
                 if os.readlink(f"/proc/self/fd/{descriptor}") in names:
                     os.dup2(os.open(os.devnull, os.O_WRONLY), int(descriptor))
 
 
 @contextlib.contextmanager
 def _blocked(*signals: signal.Signals) -> Iterator[None]:
-    """Inside, these signals wait."""
+    """Block these signals inside the block."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:
         yield

@@ -38,14 +38,14 @@ def check(
 ) -> "Study":
     """Return the runs of a configuration, checked. Raises ConfigError.
 
-    Says on the error output which of `settings` have no effect, because others before them have their keys.
+    Prints to standard error which of `settings` have no effect because an earlier one has the same key.
     """
     from gradysim.scenario.errors import ArgumentNames
     from gradysim.scenario.load import Study
 
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
-    with contextlib.chdir("."):  # afterwards; files of protocols are carried out, and may go elsewhere
+    with contextlib.chdir("."):  # files of protocols run, and may change the directory
         return Study(file, config, runs, settings, seed, names)
 
 
@@ -64,7 +64,7 @@ def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
 
 
 def tell(warnings: "Iterable[str | Finding]") -> None:
-    """Print each of them to the error output."""
+    """Print each warning to standard error."""
     for warning in warnings:
         print(warning, file=sys.stderr)
 
@@ -81,7 +81,7 @@ def warnings_of_seeds(study: "Study") -> Iterator[str]:
 
 
 def findings_of(scenarios: "Sequence[Scenario]", mode: str) -> "list[Finding]":
-    """Return what the lint checks find in the lines of a configuration, in their order."""
+    """Return the lint findings in the lines of a configuration, in their order."""
     from gradysim.scenario.lint import by_line, lint
 
     findings = lint(scenarios)

@@ -1,4 +1,4 @@
-"""What came out of a run, for people: a line, a summary that fits a screen, or all details."""
+"""Results of a run as text: a line, a summary that fits a screen, or all details."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -18,7 +18,7 @@ from gradysim.results.result import NodeResult, RunResult
 from gradysim.scenario.sweep import text_of_iterations
 
 MAX_VALUE_LENGTH = 200
-"""Characters shown of one tracked variable; the JSON object has all."""
+"""Characters shown of one tracked variable; the JSON object is complete."""
 
 MAX_CELL_LENGTH = 24
 """The same in a column of a tracked variable."""
@@ -201,7 +201,7 @@ def at_nodes(result: RunResult) -> list[RenderableType]:
     if not chosen:
         return []
     shown, rest = some_of(chosen)
-    parts: list[RenderableType] = [title("Outcomes of frames at nodes, whoever they were for")]
+    parts: list[RenderableType] = [title("Outcomes of frames at nodes, for any destination")]
     parts.append(frames_at_nodes(shown, result.fates["frames"]))
     if overheard := kinds_overheard(shown):
         parts.append(Text(f"of {overheard}, frames for other nodes that were overheard count, too"))

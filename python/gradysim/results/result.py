@@ -101,7 +101,7 @@ class NodeResult:
         Counts | None,
         Quantity(
             "With `--fates-at`: `frame_fates[KIND][OUTCOME]`, receptions at this node of frames that were"
-            " strong enough, whoever they were for.",
+            " strong enough, for any destination.",
             scalar="`KIND:OUTCOME:count`",
             omitted=(None,),
             to_json=plain_counts,

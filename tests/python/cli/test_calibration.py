@@ -101,10 +101,10 @@ def test_distances_are_metres_without_an_exponent(distance_m: float, written: st
 @pytest.mark.parametrize(
     ("name", "problem"),
     [
-        ("nowhere/curve.png", r"there is no folder .*nowhere; expected one that is there"),
-        ("curve.xyz", r"`\.xyz` is no format; expected \.png, \.svg or \.pdf"),
+        ("nowhere/curve.png", r"the directory .*nowhere does not exist; expected an existing one"),
+        ("curve.xyz", r"`\.xyz` is not a format; expected \.png, \.svg or \.pdf"),
         ("curve", r"its name does not end in a format; expected \.png, \.svg or \.pdf"),
-        ("folder.png", r"it is a folder; expected a file"),
+        ("folder.png", r"it is a directory; expected a file"),
     ],
 )
 def test_a_picture_that_cannot_be_is_refused_before_it_is_drawn(

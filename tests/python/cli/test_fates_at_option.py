@@ -61,5 +61,5 @@ def test_prototype_mode_has_no_frames(gradysim):
     done = gradysim("run", "test.ini", "--mode", "prototype", "--fates-at", "all")
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr == (
-        "--fates-at all: prototype mode has no fates of frames; expected --mode integrated\n"
+        "--fates-at all: prototype mode has no outcomes of frames; expected --mode integrated\n"
     )

@@ -161,7 +161,7 @@ def test_where_a_picture_cannot_be_nothing_is_calculated(gradysim):
     pytest.importorskip("matplotlib")
     done = gradysim("calibrate", "test.ini", "--range", "50m", "--picture", "nowhere/curve.png")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "--picture nowhere/curve.png: there is no folder nowhere" in done.stderr
+    assert "--picture nowhere/curve.png: the directory nowhere does not exist" in done.stderr
 
 
 @pytest.mark.parametrize("arguments", [["run", "test.ini"], ["calibrate", "test.ini", "--range", "50m"]])

@@ -323,7 +323,7 @@ def test_a_folder_that_cannot_be_made(gradysim, folder, option):
     (folder / "results").write_text("")
     done = gradysim(*PROTOTYPE, *option)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "--result-dir results: it is no folder; expected a folder, or a new name\n"
+    assert done.stderr == "--result-dir results: it is not a directory; expected a directory, or a new name\n"
 
 
 @pytest.mark.parametrize("option", [["--scalars"], ["--vectors", "all"]])

@@ -21,12 +21,12 @@ def test_files_of_results_are_written_to_it(gradysim, folder):
 
 @pytest.mark.parametrize(
     ("name", "reason"),
-    [("test.ini", "it is no folder"), ("dangling", "it is no folder"), ("d" * 300, "File name too long")],
+    [("test.ini", "it is not a directory"), ("dangling", "it is not a directory"), ("d" * 300, "File name too long")],
 )
 def test_a_folder_that_cannot_be_is_named_with_its_option(folder, gradysim, name, reason):
     (folder / "dangling").symlink_to("nowhere/at/all")
     done = gradysim("run", "test.ini", "--mode", "prototype", "--result-dir", name)
-    expected = f"--result-dir {name}: {reason}; expected a folder, or a new name"
+    expected = f"--result-dir {name}: {reason}; expected a directory, or a new name"
     assert (done.returncode, done.stderr.strip()) == (2, expected)
 
 
@@ -34,7 +34,7 @@ def test_a_folder_that_takes_no_files_is_told_before_the_runs(folder, monkeypatc
     monkeypatch.setattr(os, "access", lambda path, mode: False)
     monkeypatch.chdir(folder)
     assert main(["run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out"]) == 2
-    told = "--result-dir out: it takes no files from you; expected another folder\n"
+    told = "--result-dir out: it is not writable; expected another directory\n"
     assert capsys.readouterr() == ("", told)
 
 
@@ -60,7 +60,7 @@ def test_a_configuration_with_too_long_a_name_is_told_before_the_runs(folder, gr
         if code:
             assert done.stdout == ""
             assert done.stderr.startswith(f"--result-dir results: {name}-#2")
-            told = " would be too long a name of a file in it; expected a shorter name of the configuration\n"
+            told = " is too long for a name of a file in it; expected a shorter name of the configuration\n"
             assert done.stderr.endswith(told)
 
 

@@ -47,7 +47,7 @@ def test_runs_of_an_edited_protocol_begin_anew(gradysim, folder):
     protocol.write_text(protocol.read_text().replace('["said"] += 1', '["said"] += 2'))
     done = gradysim(*arguments, "--resume")
     assert done.returncode == 0
-    assert "General: protocol.py changed after 2 of 3 runs in out (0..1), which begin anew\n" in done.stderr
+    assert "General: protocol.py changed after 2 of 3 runs in out (0..1), which start again\n" in done.stderr
     said = {
         node["tracked_variables"]["said"] for result in results(folder).values() for node in result["nodes"]
     }

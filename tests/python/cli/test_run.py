@@ -231,7 +231,7 @@ def test_calibrate_is_told_who_sends_what_to_whom(gradysim):
         "calibrate", "test.ini", "--range", "50m", *base, *options
     ).stdout.splitlines()
     assert first.startswith("base to uavs[1]: 0.9 of ")
-    assert second.startswith("if nobody else sends (700 B of message")
+    assert second.startswith("if no other node sends (700 B of message")
 
 
 @compiled
