@@ -1,8 +1,8 @@
-// Beacons in networks of constant density: what a delivered frame costs from 100 to 10,000 nodes.
+// Beacons in networks of constant density: cost of a delivered frame with 100 to 10,000 nodes.
 //
-// Goals: nanoseconds per delivered frame at 10,000 nodes at most 1.3 times those at 100 nodes;
-// 10,000 nodes faster than real time on one core; less than 4 kB of memory per node, which does not
-// grow over simulated time. The lines of 10,000 nodes end with the distances to them.
+// Goals: the time per delivered frame at 10,000 nodes is at most 1.3 times the time at 100 nodes.
+// 10,000 nodes run faster than real time on one core. A node has less than 4 kB of memory, which
+// does not grow over simulated time. The lines of 10,000 nodes end with the distances to the goals.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +41,7 @@ std::string judged(const std::string& name, double figure, const char* relation,
     return text.data();
 }
 
-// Of one kind of network; nothing about flatness if that of 100 nodes was not run.
+// For one kind of network. Flatness is omitted if the network of 100 nodes did not run.
 std::string distances_to_goals(double ns_of_100_nodes, double ns_per_frame, double x_real_time,
                                double bytes_per_node) {
     constexpr double max_times = 1.3;
@@ -54,14 +54,14 @@ std::string distances_to_goals(double ns_of_100_nodes, double ns_per_frame, doub
            judged("bytes per node", bytes_per_node, "less than", max_bytes, bytes_per_node / max_bytes);
 }
 
-// Networks of one size, each with places and phases of its own. A single small one says little: its
-// phases are those of its first second forever, and in one of 100 nodes it is chance whether any
-// two frames overlap.
+// Networks of one size, each with its own places and phases. A single small network is not
+// representative: its phases never change, and with 100 nodes it is chance whether any two frames
+// overlap.
 class BeaconNetworks {
 public:
     BeaconNetworks(std::int64_t nodes, double speed_mps, double bitrate_bps)
         : BeaconNetworks(std::max<std::int64_t>(1, 2'000 / nodes), nodes, speed_mps, bitrate_bps, 20) {}
-    // So many of them, each for so many seconds in turn.
+    // `count` networks, each of which runs for `seconds_in_turn` in turn.
     BeaconNetworks(std::int64_t count, std::int64_t nodes, double speed_mps, double bitrate_bps,
                    std::size_t seconds_in_turn)
         : seconds_in_turn_(seconds_in_turn) {
@@ -72,8 +72,8 @@ public:
         }
     }
 
-    // One of them, so long that what the one before left in the caches makes no difference; then
-    // the next one.
+    // Each runs long enough to make the cache contents of the one before irrelevant; then the next
+    // one runs.
     void run_a_second() {
         netsim::Network& network = *networks_[(seconds_++ / seconds_in_turn_) % networks_.size()];
         network.run_until(network.now() + one_second);
@@ -97,7 +97,7 @@ private:
     std::size_t seconds_ = 0;
 };
 
-// Returns the CPU time.
+// Return the CPU time.
 double run_seconds(benchmark::State& state, BeaconNetworks& networks) {
     const double delivered_before = networks.delivered();
     const std::clock_t clock_before = std::clock();
@@ -109,7 +109,7 @@ double run_seconds(benchmark::State& state, BeaconNetworks& networks) {
     return cpu_s;
 }
 
-// Of each size, the last ones that were run.
+// For each size, the results of the last run.
 struct Found {
     double ns_of_100_nodes = 0;
     double ns_of_10_000_nodes = 0;
@@ -142,9 +142,9 @@ void standing(benchmark::State& state) {
 }
 BENCHMARK(standing)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
-// As many nodes as in the largest network, in small ones that know nothing of each other: what a
-// frame costs there and not in one small network is not that many nodes share a channel, but that
-// their memory together is more than the caches hold.
+// As many nodes as in the largest network, in separate small networks. A frame that costs more
+// here than in one small network does so because the total memory exceeds the caches, not because
+// many nodes share a channel.
 void standing_in_100_networks(benchmark::State& state) {
     constexpr std::int64_t count = 100;
     BeaconNetworks networks(count, state.range(0), 0, -1, 1);
@@ -165,7 +165,7 @@ void flying(benchmark::State& state) {
 }
 BENCHMARK(flying)->Arg(100)->Arg(1'000)->Arg(10'000)->Unit(benchmark::kMillisecond);
 
-// Slow frames: of 10,000 nodes, fifteen are on the air at once.
+// Slow frames: with 10,000 nodes, fifteen are on the air at the same time.
 void at_1_mbps(benchmark::State& state) {
     static Found found;
     run_beacons(state, 0, 1e6, found);

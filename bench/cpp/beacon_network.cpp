@@ -19,7 +19,7 @@ using netsim::Position;
 constexpr netsim::Purpose scenario_draws{1002};
 constexpr netsim::Purpose flight_draws{1003};
 
-// The engine's beacons from a node that flies on to another place with one in ten of them.
+// The engine's beacons. One beacon in ten makes the node fly to another place.
 class FlyingBeacon final : public netsim::Protocol {
 public:
     FlyingBeacon(Node& node, const BeaconConfig& config, double flight_area_m, std::uint64_t seed)

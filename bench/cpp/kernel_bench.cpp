@@ -1,4 +1,4 @@
-// Events per second of the kernel: schedule and run, at several numbers of pending events.
+// Events per second of the kernel, scheduled and run, for several numbers of pending events.
 //
 // Goal: 10 million events per second with 1,000 pending.
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace {
 using netsim::SimTime;
 using netsim::Simulator;
 
-// Each event schedules the next of its chain a random time ahead, as protocols' timers do.
+// Each event schedules the next of its chain after a random time, like the timers of protocols.
 struct Chain {
     Simulator* simulator;
     netsim::RandomStream* draws;

@@ -1,6 +1,6 @@
-// What this machine takes for a cache line in random order, of 80 kB and of 8 MB: about what frames
-// touch in the networks of 100 and of 10,000 nodes of beacon_bench. It is one of the reasons why a
-// frame costs more in the large one, and the one that differs from machine to machine.
+// Time to read a cache line in random order, of 80 kB and of 8 MB: about the memory that frames use
+// in the networks of 100 and of 10,000 nodes of beacon_bench. It is one reason why a frame costs
+// more in the large network, and the one that depends on the machine.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -22,8 +22,8 @@ std::vector<std::size_t> random_order(std::size_t count) {
     return order;
 }
 
-// Each line is known only from the one before: as a timer leads to its node, its link and its
-// radio.
+// The address of each line comes from the line before, like the path from a timer to its node, its
+// link and its radio.
 void dependent_lines(benchmark::State& state) {
     const std::vector<std::size_t> order =
         random_order(static_cast<std::size_t>(state.range(0)) / sizeof(Line));
@@ -39,7 +39,7 @@ void dependent_lines(benchmark::State& state) {
 }
 BENCHMARK(dependent_lines)->Arg(80'000)->Arg(8'000'000);
 
-// Many are on their way at a time: as those of a transmission's receivers, which are fetched ahead.
+// Many reads are in flight, like the prefetched receivers of a transmission.
 void independent_lines(benchmark::State& state) {
     const std::vector<std::size_t> order =
         random_order(static_cast<std::size_t>(state.range(0)) / sizeof(Line));

@@ -1,9 +1,9 @@
-// Broadcasts that all begin in one instant, as those of protocols whose timers nobody spread, or
-// almost, as those of clocks that GPS synchronises: hardly any is received, and each of them is
-// beside each other one.
+// Broadcasts that start at the same instant, as with protocols without jitter, or almost at the
+// same instant, as with clocks synchronized by GPS. Almost none is received, and all of them are
+// concurrent.
 //
-// Goals: 1,000 nodes that send in one instant or within 100 ns take at most twice the time of 1,000
-// that send within a millisecond, those that send within a microsecond at most three times.
+// Goals: 1,000 nodes that send at one instant or within 100 ns take at most twice as long as 1,000
+// that send within a millisecond. Within a microsecond they take at most three times as long.
 #include <array>
 #include <cstdio>
 #include <ctime>

@@ -1,12 +1,12 @@
-// The beacon scenario of configs/reference/beacons.ini for ns-3, to compare the time that it takes.
+// The beacon scenario of configs/reference/beacons.ini for ns-3, to compare run times.
 //
 //     beacons_ns3 NODES < POSITIONS      positions as lines "x y" in meters
 //
 // Nodes stand in a square of 1 km and broadcast 100 B once a second, at a random phase, from 1 s
-// until 60.9 s: 802.11g at 24 Mbps, 2 mW, free space. What else there is to choose is ns-3's
-// default, among it a preamble that has to arrive with -82 dBm, so that a frame is heard by fewer
-// nodes than in our own run: less work for ns-3. Prints one line of JSON: the processor time of the
-// run without building it, and the frames.
+// until 60.9 s: 802.11g at 24 Mbps, 2 mW, free space. All other settings are ns-3's defaults. One
+// of them is a preamble threshold of -82 dBm. So fewer nodes receive a frame than in our run,
+// which is less work for ns-3. Prints one line of JSON: the CPU time of the run without its
+// construction, and the frames.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

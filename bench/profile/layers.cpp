@@ -1,12 +1,11 @@
-// In which layers of the engine a run spends its time.
+// Profile of a run by layer of the engine.
 //
 //     netsim_layers [nodes]        1,000 by default, for 5 s of CPU time
 //
-// The kernel's profiling timer interrupts the run every millisecond of CPU time, and the
-// instruction it stopped at is noted. What source line that is, `addr2line` (Debian's binutils)
-// finds out from the debug information; code that was inlined counts for the layer whose source it
-// is, that of the standard library for who uses it. Time within the C library (memory, mathematics)
-// is a line of its own.
+// The kernel's profiling timer interrupts the run every millisecond of CPU time, and the current
+// instruction is recorded. `addr2line` (Debian's binutils) finds its source line from the debug
+// information. Inlined code counts for the layer of its source; the standard library counts for
+// its caller. Time within the C library (memory, mathematics) is a separate line.
 #include <algorithm>
 #include <array>
 #include <csignal>
@@ -61,7 +60,7 @@ void set_timer(suseconds_t microseconds) {
     }
 }
 
-// Where this program was loaded: its addresses begin there.
+// Load address of this program.
 struct Image {
     std::uintptr_t base = 0;
     std::uintptr_t end = 0;
@@ -78,13 +77,13 @@ Image own_image() {
                                    static_cast<std::uintptr_t>(info->dlpi_addr + info->dlpi_phdr[i].p_vaddr +
                                                                info->dlpi_phdr[i].p_memsz));
             }
-            return 1;  // the first one is the program
+            return 1;  // the first entry is the program
         },
         &image);
     return image;
 }
 
-// "…/netsim/mac/dcf.cpp:12" is "mac", "…/netsim/node/node.cpp:3" is "node"; "" is no source of the
+// "…/netsim/mac/dcf.cpp:12" is "mac", "…/netsim/node/node.cpp:3" is "node"; "" is outside of the
 // engine.
 std::string layer_of(const std::string& place) {
     const std::string root = "/cpp/netsim/";
@@ -114,7 +113,7 @@ std::map<std::uintptr_t, std::string> layers_of(const std::vector<std::uintptr_t
     FILE* places = popen(command.c_str(), "r");
     std::map<std::uintptr_t, std::string> layers;
     std::array<char, 4096> line{};
-    std::string* layer = nullptr;  // of the address that the lines are about, the innermost place first
+    std::string* layer = nullptr;  // layer of the address of these lines, innermost place first
     while (places != nullptr && std::fgets(line.data(), line.size(), places) != nullptr) {
         const std::string text = line.data();
         if (text.starts_with("0x")) {
@@ -159,7 +158,7 @@ double delivered(const netsim::Network& network) {
 
 void profile(std::int64_t nodes) {
     const auto network = make_beacon_network(nodes, 0, -1);
-    network->run_until(SimTime::from_us(1'000'000));  // warm
+    network->run_until(SimTime::from_us(1'000'000));  // warm-up
     struct sigaction action{};
     action.sa_sigaction = take_sample;
     action.sa_flags = SA_SIGINFO | SA_RESTART;

@@ -1,11 +1,11 @@
-"""Native beacons beside INET and ns-3: what the network itself takes, in CPU seconds.
+"""Native beacons compared with INET and ns-3: CPU seconds of the network alone.
 
-configs/reference/beacons.ini with 200 and 500 nodes, which broadcast for 60 s. Goals: with 200 nodes at
-least 200 times less than INET 4.5.4 (release build), and 75 times less than ns-3 3.44 at its fastest (-O3
--march=native), both as recorded on one machine; with 500 nodes less than 1 s.
+configs/reference/beacons.ini with 200 and 500 nodes that broadcast for 60 s. Goals with 200 nodes: at least
+200 times faster than INET 4.5.4 (release build), and 75 times faster than ns-3 3.44 at its fastest (-O3
+-march=native), both recorded on one machine. Goal with 500 nodes: less than 1 s.
 
-bench/ns3/beacons.cpp is the same scenario for ns-3. If Debian's ns-3 is there (`make bench` installs it if it
-can), both are run in turn, so that the ratio is one of this machine. Debian's ns-3 is not the fastest.
+bench/ns3/beacons.cpp is the same scenario for ns-3. If Debian's ns-3 is there (`make bench` tries to install
+it), both run in turn, so that the ratio is from one machine. Debian's ns-3 is not the fastest.
 """
 
 import json
@@ -39,7 +39,7 @@ def scenario(nodes: int) -> Scenario:
 
 
 def native(nodes: int) -> RunResult:
-    """Run it once and say what it took."""
+    """Run it once and print the figures."""
     result = run(scenario(nodes))
     broadcast = result.fates["frames"]["broadcast"]
     print(
@@ -51,7 +51,7 @@ def native(nodes: int) -> RunResult:
 
 
 def ns3_program() -> Path | None:
-    """Return the program for ns-3, which is compiled if it is older than its source; None without ns-3."""
+    """Return the program for ns-3, compiled if it is older than its source; None without ns-3."""
     if PROGRAM.exists() and PROGRAM.stat().st_mtime > SOURCE.stat().st_mtime:
         return PROGRAM
     compiler = shutil.which("c++") or shutil.which("g++")
@@ -69,7 +69,7 @@ def ns3_program() -> Path | None:
 
 
 def ns3(program: Path, nodes: int) -> dict[str, Any]:
-    """Run ns-3 once with the same positions and say what it took."""
+    """Run ns-3 once with the same positions and print the figures."""
     places = "\n".join(f"{x} {y}" for x, y, _ in (spec.initial_position for spec in scenario(nodes).nodes))
     output = subprocess.run(
         [program, str(nodes)], input=places, capture_output=True, text=True, check=True

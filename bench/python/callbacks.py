@@ -1,8 +1,8 @@
-"""How many callbacks of protocols in Python integrated mode makes per second, the network included.
+"""Callbacks of Python protocols per second in integrated mode, including the network.
 
-configs/reference/beacons.ini with 500 nodes whose protocol in Python does nothing but send and count; each
-broadcast is heard by about 70 of them. Goal: at least 1 million callbacks per second of wall time, building
-the network included.
+configs/reference/beacons.ini with 500 nodes whose Python protocol only sends and counts. About 70 nodes
+receive each broadcast. Goal: at least 1 million callbacks per second of wall time, including the build of the
+network.
 """
 
 import sys
@@ -22,7 +22,7 @@ def callbacks_per_second() -> float:
     (scenario,) = load_scenarios(CONFIG, "Python")
     result = run(scenario)
     tracked = [node.tracked_variables for node in result.nodes]
-    # The timers are as many as the messages sent; each node has initialize and finish, too.
+    # There are as many timers as messages sent. Each node also has initialize and finish.
     callbacks = sum(int(str(each["sent"])) + int(str(each["received"])) + 2 for each in tracked)
     print(
         f"    {callbacks} callbacks, {result.wall_s:.2f} s wall, {result.cpu_s:.2f} s CPU: "

@@ -1,10 +1,9 @@
-"""What a delivered frame costs as a user meets it: building and running the network in a process of its own.
+"""Cost of a delivered frame for a user: building and running the network in a separate process.
 
-The beacons of configs/reference/beacons.ini, 60 s of them, with 100 nodes in its square of 1 km and with
-10,000 at the same density. Goal: with 10,000 at most 1.3 times as much CPU time for each delivered frame as
-with 100. Large and small networks run in turn, as the machine may become faster or slower meanwhile, and the
-median of the ratios counts. `bench/cpp/beacon_bench.cpp` has the same ratio of the engine alone, once it
-runs.
+The beacons of configs/reference/beacons.ini for 60 s, with 100 nodes in its square of 1 km and with 10,000 at
+the same density. Goal: 10,000 nodes take at most 1.3 times as much CPU time per delivered frame as 100. Large
+and small networks run in turn, since the speed of the machine may change. The median of the ratios counts.
+`bench/cpp/beacon_bench.cpp` has the same ratio for the running engine alone.
 """
 
 import json
@@ -19,11 +18,11 @@ CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacon
 NODES_PER_KM2 = 100
 GOAL_TIMES = 1.3
 ROUNDS = 9
-SMALL_NETWORKS = 4  # of each round
+SMALL_NETWORKS = 4  # per round
 
 
 def arguments(nodes: int) -> Iterator[str]:
-    """Say where the nodes are, and that all of them have the protocol."""
+    """Yield the settings for the positions and the protocol of all nodes."""
     side_m = 1000 * sqrt(nodes / NODES_PER_KM2)
     for line in (
         f"*.numNodes = {nodes}",

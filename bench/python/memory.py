@@ -1,7 +1,7 @@
-"""What a node takes of memory, and whether memory grows over a run.
+"""Memory of a node, and growth of memory during a run.
 
-Native beacons (configs/reference/beacons.ini) with 500 nodes. Goals: less than 4 kB for each node more; and
-resident memory at the end of a run of 100 million events within 1 MB of what it was after the first tenth.
+Native beacons (configs/reference/beacons.ini) with 500 nodes. Goals: less than 4 kB per additional node.
+Resident memory after 100 million events is within 1 MB of its value after the first tenth.
 """
 
 import gc
@@ -22,16 +22,16 @@ PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
 
 
 def resident_kb() -> float:
-    """Memory of this process now, in kB of 1024 bytes."""
+    """Current memory of this process, in kB of 1024 bytes."""
     return int(Path("/proc/self/statm").read_text().split()[1]) * PAGE_BYTES / 1024
 
 
 def long_run() -> tuple[int, float]:
-    """Run EVENTS_GOAL events or more; return how many, and by how many kB memory grew after a tenth."""
+    """Run EVENTS_GOAL events or more. Return their number, and the growth of memory in kB after a tenth."""
     (probe,) = load_scenarios(CONFIG, overrides=["sim-time-limit = 11s", f"*.numNodes = {NODES}"])
     built = IntegratedRun(probe)
     built.execute()
-    # A little more, as the first second has no events and the last ones vary.
+    # A bit more, since the first second has no events and the number of events varies.
     sim_time_s = 2 + 1.01 * 10 * EVENTS_GOAL / built.result().events
     overrides = [f"sim-time-limit = {sim_time_s:.0f}s", "*.nodes[*].protocol.stop = 1000000s"]
     (scenario,) = load_scenarios(CONFIG, overrides=[*overrides, f"*.numNodes = {NODES}"])
@@ -52,7 +52,7 @@ def long_run() -> tuple[int, float]:
 
 
 def taken_kb(nodes: int) -> float:
-    """Return by how much a network of so many nodes makes this process grow."""
+    """Return the growth of this process by a network of that many nodes."""
     (scenario,) = load_scenarios(CONFIG, overrides=["sim-time-limit = 5s", f"*.numNodes = {nodes}"])
     gc.collect()
     before = resident_kb()
@@ -62,10 +62,10 @@ def taken_kb(nodes: int) -> float:
 
 
 def per_node() -> float:
-    """Return how many bytes a node takes, with its share of what the run needs: between 100 and 500 nodes."""
+    """Return the bytes per node, including its part of the run's memory: between 100 and 500 nodes."""
     sizes = {}
     for nodes in (100, NODES):
-        # Each in a process of its own: what one run has given back would else serve the next.
+        # Each in a separate process, since memory freed by one run would serve the next.
         with ProcessPoolExecutor(1) as process:
             sizes[nodes] = process.submit(taken_kb, nodes).result()
     return (sizes[NODES] - sizes[100]) * 1024 / (NODES - 100)

@@ -1,10 +1,10 @@
-"""Prototype mode beside the published package, gradysim 0.8.2, on the same script.
+"""Prototype mode compared with the published package, gradysim 0.8.2, on the same script.
 
-Goals: at least 4 times the published package's speed (CPU time, the median of pairs of runs taken in turn)
-with 10, 50 and 100 nodes, each with telemetry at 100 Hz and one broadcast a second; and memory that does not
-grow with simulated time.
+Goals: at least 4 times the speed of the published package (CPU time, median of pairs of runs in turn). With
+10, 50 and 100 nodes, each with telemetry at 100 Hz and one broadcast a second. Memory must not grow with
+simulated time.
 
-The published package is installed into an environment of its own, build/published; it is only run.
+The published package is installed into a separate environment, build/published. It is only run.
 """
 
 import json
@@ -26,7 +26,7 @@ ROUNDS = 5
 
 
 def published_python() -> Path:
-    """Return the interpreter of the published package's environment, which is made if there is none."""
+    """Return the interpreter of the published package's environment, which is created if necessary."""
     python = ENVIRONMENT / "bin" / "python"
     version = "from importlib.metadata import version; print(version('gradysim'))"
     if not python.exists() or output_of([python, "-c", version], check=False) != PUBLISHED:
@@ -63,7 +63,7 @@ def ours(nodes: int, simulated_s: float) -> dict[str, Any]:
 
 
 def compare(nodes: int) -> tuple[float, int]:
-    """Return how many times as fast ours is, and by how many kB its memory grew."""
+    """Return the speed-up, and the growth of memory in kB."""
     simulated_s = NODE_SECONDS / nodes
     ratios, growths = [], []
     for _ in range(ROUNDS):

@@ -1,12 +1,12 @@
-"""What integrated mode costs beside the Python that users write.
+"""Cost of integrated mode in addition to the users' Python code.
 
 Two goals, each a ratio of CPU times taken in turn in one process:
 
-- a whole run of ZigZag25 takes at most 1.25 times what its Python callbacks take by themselves. The callbacks
-  are recorded in one run and replayed against a provider that does nothing, with the same arguments, in the
-  same order, so that every protocol takes the same decisions;
-- one callback through the proxy takes at most 1.5 times a plain call from Python. What the kernel takes for
-  the event itself (a node without a protocol) is subtracted.
+- a whole run of ZigZag25 takes at most 1.25 times as long as its Python callbacks alone. The callbacks are
+  recorded in one run and replayed against a provider that does nothing. Arguments and order are the same, so
+  every protocol takes the same decisions;
+- one callback through the proxy takes at most 1.5 times as long as a plain call from Python. The kernel's
+  time for the event itself (a node without a protocol) is subtracted.
 """
 
 import gc
@@ -35,7 +35,7 @@ Call = tuple[int, str, float, Any]  # node, method, simulated time in seconds, a
 
 
 class Recorder:
-    """Stands between the engine and a protocol and writes down every call."""
+    """Records every call between the engine and a protocol."""
 
     def __init__(self, node: int, protocol: IProtocol, now: Callable[[], float], calls: list[Call]) -> None:
         self._node, self._protocol, self._now, self._calls = node, protocol, now, calls
@@ -60,7 +60,7 @@ class Recorder:
 
 
 class IdleProvider(IProvider):
-    """Accepts every command and does nothing; tells the recorded time."""
+    """Accepts every command and does nothing; returns the recorded time."""
 
     def __init__(self, node: int, seed: int) -> None:
         self.tracked_variables = {}
@@ -99,7 +99,7 @@ def record(scenario: Scenario) -> list[Call]:
 
 
 def replay(scenario: Scenario, calls: list[Call]) -> float:
-    """Return the CPU seconds that the recorded callbacks take by themselves."""
+    """Return the CPU seconds of the recorded callbacks alone."""
     providers = [IdleProvider(spec.id, scenario.seed) for spec in scenario.nodes]
     protocols = [
         parametrize(spec.protocol, spec.protocol_parameters).instantiate(provider)
@@ -109,7 +109,7 @@ def replay(scenario: Scenario, calls: list[Call]) -> float:
         protocol.initialize()
     took_s = 0.0
     for start in range(0, len(calls), 10_000):
-        # Bound methods and times are prepared apart, so that only the calls are timed.
+        # Bound methods and times are prepared in advance, so that only the calls are timed.
         batch = [
             (providers[node], time, getattr(protocols[node], method), argument)
             for node, method, time, argument in calls[start : start + 10_000]
@@ -126,7 +126,7 @@ def whole_run(hours: float, rounds: int) -> None:
     """Compare whole runs with their callbacks."""
     (scenario,) = load_scenarios(CONFIG, "ZigZag25", overrides=[f"sim-time-limit={hours}h"])
     calls = record(scenario)
-    gc.freeze()  # or the garbage collector would go through the recorded calls during the runs
+    gc.freeze()  # or the garbage collector would scan the recorded calls during the runs
     ratios = []
     for _ in range(rounds):
         callbacks_s = replay(scenario, calls)
@@ -137,7 +137,7 @@ def whole_run(hours: float, rounds: int) -> None:
 
 
 class Counting:
-    """The least that a protocol can do."""
+    """Minimal protocol."""
 
     calls = 0
 

@@ -1,7 +1,7 @@
-"""How much longer a run takes if it is recorded for a replay, with all receptions.
+"""Cost of recording a run for a replay, with all receptions.
 
-ZigZag25 over eight simulated hours, with and without a record in turn, in CPU seconds of the thread that
-simulates. Goal: at most a quarter more. An argument shortens it: `recording.py 0.5` for half an hour.
+ZigZag25 over eight simulated hours, with and without recording in turn, in CPU seconds of the simulating
+thread. Goal: at most a quarter more. An argument sets the hours: `recording.py 0.5` for half an hour.
 """
 
 import sys
@@ -19,7 +19,7 @@ GOAL = 1.25
 
 
 def thread_s(hours: float, page: Path | None) -> float:
-    """Return the CPU time of a run, which writes a page if one is named; s."""
+    """Return the CPU time of a run in s. The run writes a page if `page` is given."""
     (scenario,) = load_scenarios(CONFIG, "ZigZag25", overrides=[f"sim-time-limit={hours}h"])
     start = time.thread_time()
     run(scenario, replay=None if page is None else ReplayWriter(page))

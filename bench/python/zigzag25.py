@@ -1,7 +1,7 @@
-"""How much faster integrated mode is than prototype mode, in spite of its radios.
+"""Speed of integrated mode relative to prototype mode, in spite of its radios.
 
 ZigZag25 over eight simulated hours, once in each mode in turn, in CPU seconds. Goal: integrated mode takes at
-most a fifth of what prototype mode takes. An argument shortens it: `zigzag25.py 0.5` for half an hour.
+most a fifth of the time of prototype mode. An argument sets the hours: `zigzag25.py 0.5` for half an hour.
 """
 
 import sys
@@ -18,7 +18,7 @@ GOAL = 5.0
 
 
 def describe(result: RunResult) -> str:
-    """Say how fast a run was."""
+    """Return the speed of a run as text."""
     return (
         f"    {result.mode:10} {result.cpu_s:7.2f} s for {result.events} events: "
         f"{result.events / result.cpu_s / 1e3:.0f} k events/s, "

@@ -1,6 +1,6 @@
-"""A run of ZigZag, and what a handler saw of it once a minute: steps.py begins here.
+"""A run of ZigZag with a handler that takes a sample once a minute, for steps.py.
 
-docs/how-to/write-a-handler.md explains handlers, docs/how-to/repeat-the-paper.md what is looked for.
+docs/how-to/write-a-handler.md explains handlers, docs/how-to/repeat-the-paper.md the experiment.
 """
 
 import math
@@ -27,12 +27,12 @@ MODES: dict[str, Callable[..., RunResult]] = {
 
 @dataclass(frozen=True)
 class Sample:
-    """What there was at one simulated time.
+    """State at one simulated time.
 
     Attributes:
         time_s: Simulated seconds.
         readings: Readings that had arrived at the ground station.
-        nearest_m: Metres from a UAV to the one nearest to it, the mean over all UAVs.
+        nearest_m: Meters from a UAV to the nearest other one, averaged over all UAVs.
     """
 
     time_s: float
@@ -51,23 +51,23 @@ class Observer(INodeHandler):
 
     @staticmethod
     def get_label() -> str:
-        """The name of the handler."""
+        """Return the label of the handler."""
         return "observer"
 
     def inject(self, event_loop: EventLoop) -> None:
-        """Take the clock, and forget the nodes of an earlier run."""
+        """Take the event loop, and forget the nodes of an earlier run."""
         self._event_loop = event_loop
         self._uavs: list[Node[Any]] = []
 
     def register_node(self, node: Node[Any]) -> None:
-        """Remember the nodes to look at: ids count as the scenario does."""
+        """Store the observed nodes. Ids follow the order of the scenario."""
         if self._groups[node.id] == "uavs":
             self._uavs.append(node)
         elif self._groups[node.id] == "groundStation":
             self._station = node
 
     def initialize(self) -> None:
-        """Plan the first sample."""
+        """Schedule the first sample."""
         self._event_loop.schedule_event(self._event_loop.current_time, self._sample, "observer")
 
     def _sample(self) -> None:

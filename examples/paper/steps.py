@@ -1,7 +1,7 @@
-"""The steps in which the paper's authors made ZigZag: what each of them changes, in both modes.
+"""Steps in which the paper's authors developed ZigZag: the effect of each step, in both modes.
 
-`python examples/paper/steps.py` takes the smallest size, `python examples/paper/steps.py ZigZag15` another
-one. docs/how-to/repeat-the-paper.md says what is to be seen.
+`python examples/paper/steps.py` runs the smallest size, `python examples/paper/steps.py ZigZag15` another
+one. docs/how-to/repeat-the-paper.md explains the output.
 """
 
 import sys
@@ -21,9 +21,9 @@ class Step(NamedTuple):
     """A version of the protocol.
 
     Attributes:
-        text: What is new.
-        config: Added to the name of the size.
-        overrides: What `--set` takes.
+        text: Description of the change.
+        config: Suffix of the configuration's name.
+        overrides: Arguments of `--set`.
     """
 
     text: str
@@ -43,18 +43,18 @@ STEPS = (
 
 
 def exchanges(run: ObservedRun) -> int:
-    """Return how many exchanges UAVs made, with each other (both count) and with the ground station."""
+    """Return the number of exchanges of UAVs, with each other (both count) and with the ground station."""
     counts = [node.tracked_variables.get("interactions", 0) for node in run.result.nodes]
     return sum(count for count in counts if isinstance(count, int))
 
 
 def nearest_m(run: ObservedRun) -> float:
-    """Return the meters from a UAV to the nearest other one, the mean over the second half of the run."""
+    """Return the distance in m from a UAV to the nearest other one, mean of the second half of the run."""
     return fmean(sample.nearest_m for sample in run.samples[len(run.samples) // 2 :])
 
 
 def row(size: str, step: Step, mode: str, *overrides: str) -> list[str]:
-    """Run a step in a mode and return what the table says of it."""
+    """Run a step in a mode and return its row of the table."""
     (scenario, *_) = load_scenarios(SCENARIOS, size + step.config, overrides=[*overrides, *step.overrides])
     run = observed_run(scenario, mode)
     counts = f"{run.samples[-1].readings:,}", f"{exchanges(run):,}"

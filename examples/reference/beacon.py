@@ -1,4 +1,4 @@
-"""A node that broadcasts at regular times and counts what it hears."""
+"""A node that broadcasts at regular times and counts its receptions."""
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
@@ -6,14 +6,14 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Beacon(IProtocol):
-    """Broadcasts a message of fixed size: number k goes out at first_send + offset + k * interval.
+    """Broadcasts a message of fixed size: number k is sent at first_send + offset + k * interval.
 
-    The offset is drawn once per node, between 0 and `spread`: with a spread of 0 s all nodes with the same
+    The offset is drawn once per node, between 0 and `spread`. With a spread of 0 s all nodes with the same
     `first_send` send at exactly the same instants.
 
     Tracked variables, at the end:
         sent: Messages handed to the radio.
-        received: Messages heard.
+        received: Messages received.
     """
 
     first_send: float = 1.0
@@ -23,7 +23,7 @@ class Beacon(IProtocol):
     interval: float = 1.0
     """Seconds between two messages, > 0."""
     stop: float = 60.9
-    """Nothing is sent from this time in seconds on."""
+    """Seconds; the node does not send from this time on."""
     payload_bytes: int = 100
     """Size of a message."""
 
@@ -38,25 +38,25 @@ class Beacon(IProtocol):
         self._schedule()
 
     def _schedule(self) -> None:
-        # Multiplied, not added up: all nodes round alike, and no error grows.
+        # Multiplied, not added up: all nodes round in the same way, and errors do not grow.
         time = self._start + self._sent * self.interval
         if time < self.stop:
             self.provider.schedule_timer("beacon", time)
 
     def handle_timer(self, timer: str) -> None:
-        """Send."""
+        """Send a message."""
         self.provider.send_communication_command(self._command)
         self._sent += 1
         self._schedule()
 
     def handle_packet(self, message: str) -> None:
-        """Count."""
+        """Count a message."""
         self._received += 1
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: a beacon does not need its position."""
 
     def finish(self) -> None:
-        """Show the counts."""
+        """Track the counts."""
         self.provider.tracked_variables["sent"] = self._sent
         self.provider.tracked_variables["received"] = self._received

@@ -10,31 +10,34 @@ _ORIGIN_TIMER = "flood"
 class Flood(IProtocol):
     """The origin broadcasts number k at first_send + k * interval; each other node relays it once.
 
-    A message is "NUMBER HOPS ", filled up with x to `payload_bytes`. HOPS, 1 from the origin, grows by one
+    A message is "NUMBER HOPS ", padded with x to `payload_bytes`. HOPS is 1 at the origin and grows by one
     with each relay.
 
     Tracked variables, at the end:
-        sent: Messages of one's own.
-        received: Messages heard, each one once.
-        duplicates: Messages heard again.
-        relayed: Messages passed on.
-        most_hops: Transmissions in a row of the message that came from farthest.
+        sent: Messages of this node.
+        received: Messages received, each counted once.
+        duplicates: Messages received again.
+        relayed: Messages relayed.
+        most_hops: Largest number of hops of a received message.
     """
 
     origin: int = 0
-    """Id of the node that the messages come from."""
+    """Id of the node that originates the messages."""
     first_send: float = 1.0
     """Seconds; not negative."""
     interval: float = 1.0
     """Seconds between two messages of the origin, > 0."""
     stop: float = 60.9
-    """The origin sends nothing from this time in seconds on."""
+    """Seconds; the origin does not send from this time on."""
     jitter: float = 0.01
-    """Longest delay of a relay in seconds; drawn for each, or neighbours would relay at the same instant."""
+    """Longest delay of a relay in seconds, drawn for each.
+
+    Otherwise neighbors would relay at the same instant.
+    """
     hop_limit: int = 16
-    """Transmissions in a row after which a message is not relayed any more."""
+    """Number of hops after which a message is not relayed any more."""
     payload_bytes: int = 100
-    """Size of a message; longer if its numbers are."""
+    """Size of a message; larger if its numbers need it."""
 
     def initialize(self) -> None:
         """Schedule the first message of the origin."""
@@ -54,7 +57,7 @@ class Flood(IProtocol):
         return f"{number} {hops} ".ljust(self.payload_bytes, "x")
 
     def handle_timer(self, timer: str) -> None:
-        """Send the origin's next message, or relay the one that is the timer's name."""
+        """Send the origin's next message, or relay the message in the timer's name."""
         if timer != _ORIGIN_TIMER:
             self.provider.send_communication_command(BroadcastMessageCommand(timer))
             self._counts["relayed"] += 1
@@ -66,7 +69,7 @@ class Flood(IProtocol):
         self._schedule()
 
     def handle_packet(self, message: str) -> None:
-        """Count, and relay what is new."""
+        """Count the message, and relay it if it is new."""
         number, hops = map(int, message.split(" ", 2)[:2])
         if number in self._known:
             self._counts["duplicates"] += 1
@@ -79,8 +82,8 @@ class Flood(IProtocol):
             self.provider.schedule_timer(self._text(number, hops + 1), self.provider.current_time() + delay)
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: the position is not used."""
 
     def finish(self) -> None:
-        """Show the counts."""
+        """Track the counts."""
         self.provider.tracked_variables.update(self._counts)

@@ -1,4 +1,4 @@
-"""Nodes that fly straight to a point from the start on: one broadcasts, one remembers what it heard when."""
+"""Nodes that fly straight to a point from the start: one broadcasts, the other records its receptions."""
 
 from beacon import Beacon
 from gradysim.protocol.interface import IProtocol
@@ -7,17 +7,17 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class FlyingBeacon(Beacon):
-    """Broadcasts as Beacon does, in flight.
+    """Broadcasts like Beacon, in flight.
 
-    Tracked variables, at the end: those of Beacon.
+    Tracked variables, at the end: as in Beacon.
     """
 
     target_x: float = 0.0
-    """Where it flies to; metres."""
+    """x of the target; meters."""
     target_y: float = 0.0
-    """Metres."""
+    """y of the target; meters."""
     target_z: float = 0.0
-    """Metres."""
+    """z of the target; meters."""
 
     def initialize(self) -> None:
         """Take off, and schedule the first message."""
@@ -27,18 +27,18 @@ class FlyingBeacon(Beacon):
 
 
 class FlyingSink(IProtocol):
-    """Listens, in flight.
+    """Records receptions, in flight.
 
     Tracked variables, at the end:
-        received_at: The time of each message, in seconds.
+        received_at: Time of each reception, in seconds.
     """
 
     target_x: float = 0.0
-    """Where it flies to; metres."""
+    """x of the target; meters."""
     target_y: float = 0.0
-    """Metres."""
+    """y of the target; meters."""
     target_z: float = 0.0
-    """Metres."""
+    """z of the target; meters."""
 
     def initialize(self) -> None:
         """Take off."""
@@ -47,15 +47,15 @@ class FlyingSink(IProtocol):
         self.provider.send_mobility_command(target)
 
     def handle_packet(self, message: str) -> None:
-        """Remember."""
+        """Record the time."""
         self._received_at.append(self.provider.current_time())
 
     def handle_timer(self, timer: str) -> None:
-        """There are no timers."""
+        """Do nothing: there are no timers."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: the position is not used."""
 
     def finish(self) -> None:
-        """Show the times."""
+        """Track the times."""
         self.provider.tracked_variables["received_at"] = self._received_at

@@ -1,16 +1,16 @@
-"""A beacon each of whose messages is late by a random time of its own."""
+"""A beacon with a random delay for each message."""
 
 from beacon import Beacon
 
 
 class JitteredBeacon(Beacon):
-    """Broadcasts as Beacon does, but message number k goes out up to `jitter` after its time.
+    """Broadcasts like Beacon, but message number k is sent up to `jitter` after its time.
 
-    Tracked variables, at the end: those of Beacon.
+    Tracked variables, at the end: as in Beacon.
     """
 
     jitter: float = 0.0
-    """Longest delay of a message in seconds, drawn anew for each; not negative, less than `interval`."""
+    """Longest delay of a message in seconds, drawn for each message; not negative, less than `interval`."""
 
     def _schedule(self) -> None:
         time = self._start + self._sent * self.interval

@@ -8,16 +8,16 @@ from gradysim.protocol.messages.telemetry import Telemetry
 class SaturatingSource(IProtocol):
     """Sends messages to one node, faster than the channel can carry them: its queue never runs empty.
 
-    The defaults offer 32 Mbps of payload, more than one station can send at any rate of 802.11 b, g or a.
-    What does not fit into the queue is dropped there.
+    The defaults offer 32 Mbps of payload, more than one station can send at any rate of 802.11 b, g or a. The
+    queue drops messages that do not fit.
     """
 
     destination: int = 0
-    """Id of the node that the messages go to."""
+    """Id of the destination node."""
     payload_bytes: int = 1000
     """Size of a message."""
     burst: int = 4
-    """Messages handed over at once."""
+    """Messages per burst."""
     interval: float = 0.001
     """Seconds between two bursts, > 0."""
     spread: float = 0.0
@@ -33,17 +33,17 @@ class SaturatingSource(IProtocol):
         self.provider.schedule_timer("burst", self._start)
 
     def handle_timer(self, timer: str) -> None:
-        """Fill the queue up."""
+        """Fill the queue."""
         for _ in range(self.burst):
             self.provider.send_communication_command(self._command)
         self._bursts += 1
         self.provider.schedule_timer("burst", self._start + self._bursts * self.interval)
 
     def handle_packet(self, message: str) -> None:
-        """Nobody writes to a source."""
+        """Do nothing: a source does not receive messages."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: a source does not need its position."""
 
     def finish(self) -> None:
-        """The sink counts."""
+        """Do nothing: the sink counts."""

@@ -13,26 +13,26 @@ class Sink(IProtocol):
     """
 
     count_from: float = 0.0
-    """Seconds; what arrives before is left out."""
+    """Seconds; earlier messages do not count."""
 
     def initialize(self) -> None:
-        """Start at zero."""
+        """Start the counts at 0."""
         self._received = 0
         self._received_bytes = 0
 
     def handle_packet(self, message: str) -> None:
-        """Count."""
+        """Count a message."""
         if self.provider.current_time() >= self.count_from:
             self._received += 1
             self._received_bytes += len(message)
 
     def handle_timer(self, timer: str) -> None:
-        """A sink has no timers."""
+        """Do nothing: a sink has no timers."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: a sink does not need its position."""
 
     def finish(self) -> None:
-        """Show the counts."""
+        """Track the counts."""
         self.provider.tracked_variables["received"] = self._received
         self.provider.tracked_variables["received_bytes"] = self._received_bytes

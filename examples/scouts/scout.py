@@ -10,11 +10,11 @@ class Base(IProtocol):
     """Counts the reports that it receives.
 
     Tracked variables:
-        reports: Their number up to now.
+        reports: Number of reports so far.
     """
 
     def initialize(self) -> None:
-        """Start at zero."""
+        """Start the count at 0."""
         self.provider.tracked_variables["reports"] = 0
 
     def handle_packet(self, message: str) -> None:
@@ -22,13 +22,13 @@ class Base(IProtocol):
         self.provider.tracked_variables["reports"] += 1
 
     def handle_timer(self, timer: str) -> None:
-        """A base has no timers."""
+        """Do nothing: a base has no timers."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: a base does not need its position."""
 
     def finish(self) -> None:
-        """The count is complete."""
+        """Do nothing: the count is complete."""
 
 
 class Scout(IProtocol):
@@ -40,7 +40,7 @@ class Scout(IProtocol):
     """Size of a report."""
 
     def initialize(self) -> None:
-        """Take off."""
+        """Start the trip and schedule the first report."""
         box = RandomMobilityConfig(x_range=(-400, 400), y_range=(-400, 400), z_range=(40, 60), tolerance=1)
         self._trip = RandomMobilityPlugin(self, box)
         self._trip.initiate_random_trip()
@@ -52,15 +52,15 @@ class Scout(IProtocol):
         self.provider.schedule_timer("report", self._reports + self.provider.random.uniform(0, self.jitter))
 
     def handle_timer(self, timer: str) -> None:
-        """Report."""
+        """Send a report."""
         self.provider.send_communication_command(BroadcastMessageCommand("x" * self.report_bytes))
         self._schedule()
 
     def handle_packet(self, message: str) -> None:
-        """Reports of others do not matter."""
+        """Do nothing: scouts ignore the reports of others."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """The trip reads it."""
+        """Do nothing: the plugin handles telemetry."""
 
     def finish(self) -> None:
-        """Nothing is left to do."""
+        """Do nothing."""

@@ -1,4 +1,4 @@
-"""The node that the sensors report to."""
+"""The destination of the sensors' reports."""
 
 from collections import Counter
 
@@ -11,24 +11,24 @@ class Collector(IProtocol):
 
     Tracked variables, at the end:
         received: All reports.
-        sensors_heard: Sensors that at least one report came from.
+        sensors_heard: Number of sensors with at least one report.
     """
 
     def initialize(self) -> None:
-        """Start at zero."""
+        """Start the counts at 0."""
         self._reports: Counter[str] = Counter()
 
     def handle_packet(self, message: str) -> None:
-        """Count; a report begins with the id of its sensor."""
+        """Count a report, which starts with the id of its sensor."""
         self._reports[message.partition(" ")[0]] += 1
 
     def handle_timer(self, timer: str) -> None:
-        """A collector has no timers."""
+        """Do nothing: a collector has no timers."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Where it is does not matter."""
+        """Do nothing: a collector does not need its position."""
 
     def finish(self) -> None:
-        """Show the counts."""
+        """Track the counts."""
         self.provider.tracked_variables["received"] = self._reports.total()
         self.provider.tracked_variables["sensors_heard"] = len(self._reports)

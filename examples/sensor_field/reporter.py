@@ -1,4 +1,4 @@
-"""A sensor that sends what it has measured to one node, again and again."""
+"""A sensor that sends its measurements to one node periodically."""
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
@@ -6,18 +6,18 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Reporter(IProtocol):
-    """Sends a report every `period` seconds, a random time of up to `jitter` seconds after its beginning.
+    """Sends a report in every period of `period` seconds, up to `jitter` seconds after its start.
 
     Tracked variables, at the end:
         sent: Reports handed to the network interface.
     """
 
     destination: int = 0
-    """Id of the node that the reports go to."""
+    """Id of the destination node."""
     period: float = 10.0
     """Seconds, > 0."""
     jitter: float = 10.0
-    """Seconds, from 0 to the period. With 0 all sensors send in the same instant."""
+    """Seconds, from 0 to the period. With 0 all sensors send at the same instant."""
     payload_bytes: int = 40
     """Size of a report; an 802.15.4 frame has room for 90."""
 
@@ -37,14 +37,14 @@ class Reporter(IProtocol):
         self.provider.schedule_timer("report", time)
 
     def handle_timer(self, timer: str) -> None:
-        """Report: who it is, which report it is, and measured values up to the size."""
+        """Send a report: id, number, and measured values up to the size."""
         report = f"{self.provider.get_id()} {self._sent} ".ljust(self.payload_bytes, "7")
         self.provider.send_communication_command(SendMessageCommand(report, self.destination))
         self._sent += 1
         self._schedule()
 
     def handle_packet(self, message: str) -> None:
-        """Nobody writes to a sensor."""
+        """Do nothing: a sensor does not receive messages."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
         """A sensor does not move."""

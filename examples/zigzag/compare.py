@@ -1,7 +1,7 @@
-"""Fly ZigZag in both modes and compare what the ground station collected: `make demo`.
+"""Run ZigZag in both modes and compare what the ground station collected: `make demo`.
 
-`python examples/zigzag/compare.py` takes the three sizes, and the smallest one without jitter. Other
-configurations of configs/zigzag.ini are given by name: `python examples/zigzag/compare.py ZigZag5`.
+`python examples/zigzag/compare.py` runs the three sizes, and the smallest one without jitter. To run other
+configurations of configs/zigzag.ini, give their names: `python examples/zigzag/compare.py ZigZag5`.
 """
 
 import sys
@@ -24,7 +24,7 @@ MODES: dict[str, Callable[[Scenario], RunResult]] = {
     "prototype": gradysim.prototype.run.run,
     "integrated": gradysim.integrated.run.run,
 }
-# The fates of copies of frames that came within reach of a receiver: the ledger's name, and what it means.
+# Outcomes of receptions within reach of the destination: their names in results, and their meaning.
 FATES = {
     "delivered": "frames delivered",
     "noise": "lost to noise",
@@ -43,9 +43,9 @@ def collected(result: RunResult) -> int:
 
 
 def frames_with(fate: str, fates: Outcomes) -> str:
-    """Return how many copies of frames had this fate at their destinations, a dash if there is no such fate.
+    """Return the number of receptions with this outcome at their destinations; a dash if it does not exist.
 
-    Acknowledgements are left out. Prototype mode has no frames: there it is copies of messages.
+    Acknowledgements are left out. Prototype mode has no frames: there it counts receptions of messages.
     """
     ledger = fates.get("frames") or fates["copies"]
     counts = [ledger[kind][fate] for kind in ("broadcast", "unicast") if fate in ledger[kind]]

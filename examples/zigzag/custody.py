@@ -1,17 +1,16 @@
-"""Who holds which data, when messages can be lost."""
+"""Custody of data when messages can be lost."""
 
 
 class Custody:
-    """What a node holds, and an account of what went to and came from each other node.
+    """Readings that a node holds, and totals of the readings exchanged with each other node.
 
-    A radio does not tell whether a message arrived. If a message said "here are 12 readings", its sender
-    could only guess: keep them, and perhaps they exist twice; drop them, and perhaps they are gone. So a
-    message says instead "I have handed you 40 so far, in all". The receiver takes what is new to it: a
-    message that comes twice adds nothing, and a lost one is made good by the next that gets through between
-    the two.
+    A radio does not report whether a message arrived. If a message said "here are 12 readings", its sender
+    could keep them, with a risk of duplicates, or drop them, with a risk of losses. Instead a message says "I
+    have handed you 40 in total". The receiver takes what is new. A message that arrives twice adds nothing.
+    The next message that arrives makes up for a lost one.
 
-    Data is thus never duplicated. What was handed over in a lost message is in transit until the two meet
-    again; a real node would keep the readings themselves until then.
+    So data is never duplicated. Readings in a lost message are in transit until the two nodes meet again. A
+    real node would keep the readings themselves until then.
     """
 
     def __init__(self) -> None:
@@ -21,20 +20,20 @@ class Custody:
         self._taken: dict[int, int] = {}
 
     def given_to(self, peer: int) -> int:
-        """Readings handed to `peer` so far, in all: what a message to it says."""
+        """Return the total of readings handed to `peer`, which a message to it contains."""
         return self._given.get(peer, 0)
 
     def taken_from(self, peer: int) -> int:
-        """Readings that arrived from `peer` so far, in all."""
+        """Return the total of readings received from `peer`."""
         return self._taken.get(peer, 0)
 
     def give_all(self, peer: int) -> None:
-        """Hand everything to `peer`: the next message to it will say so."""
+        """Hand all readings to `peer`. The next message to it says so."""
         self._given[peer] = self.given_to(peer) + self.held
         self.held = 0
 
     def take(self, peer: int, given: int) -> int:
-        """Take what is new in a message of `peer` that has `given` so many in all; return how many."""
+        """Take the new readings of a message of `peer`, whose total is `given`. Return their number."""
         new = max(0, given - self.taken_from(peer))
         self._taken[peer] = self.taken_from(peer) + new
         self.held += new

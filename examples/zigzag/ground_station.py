@@ -1,4 +1,4 @@
-"""The ground station's part of ZigZag."""
+"""Ground station of ZigZag."""
 
 from custody import Custody
 from gradysim.protocol.interface import IProtocol
@@ -16,13 +16,13 @@ from message import (
 
 
 class ZigZagGroundStation(IProtocol):
-    """Stands still and takes all data of each UAV that comes by; the UAV then flies away from it.
+    """Stands still and takes all data of each UAV in range. The UAV then flies away from it.
 
-    It pairs like a UAV (see `ZigZagMobile`), but it always is the carrier and is available at all times.
+    It exchanges data like a UAV (see `ZigZagMobile`), but it is always the carrier and always available.
 
     Tracked variables:
-        data: Readings that have arrived: the result of the whole mission.
-        deliveries: How often a UAV brought any.
+        data: Readings that have arrived: the result of the mission.
+        deliveries: Number of exchanges that brought readings.
     """
 
     heartbeat_interval: float = 1.0
@@ -31,7 +31,7 @@ class ZigZagGroundStation(IProtocol):
     """Longest random delay of a heartbeat in seconds; 0: all nodes send at the same instants."""
 
     def initialize(self) -> None:
-        """Start with no data, and the first heartbeat to come."""
+        """Start without data, and schedule the first heartbeat."""
         self._custody = Custody()
         self._deliveries = 0
         self._heartbeats = HeartbeatClock(
@@ -45,13 +45,13 @@ class ZigZagGroundStation(IProtocol):
         self.provider.schedule_timer("heartbeat", self._heartbeats.next())
 
     def handle_timer(self, timer: str) -> None:
-        """Send a heartbeat; it is the only timer."""
+        """Send a heartbeat, which is the only timer."""
         heartbeat = GroundHeartbeat(sender=self.provider.get_id())
         self.provider.send_communication_command(BroadcastMessageCommand(encode(heartbeat)))
         self.provider.schedule_timer("heartbeat", self._heartbeats.next())
 
     def handle_packet(self, message: str) -> None:
-        """Ask a UAV that is heard for its data, and take data from whatever a UAV says."""
+        """Request the data of a UAV that is in range, and take the data of its messages."""
         me = self.provider.get_id()
         match decode(message):
             case UavHeartbeat(sender=uav, available=True):
@@ -63,10 +63,10 @@ class ZigZagGroundStation(IProtocol):
                 self._take(uav, given)
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """A ground station does not need to know where it is."""
+        """Do nothing: a ground station does not need its position."""
 
     def finish(self) -> None:
-        """All that matters is tracked already."""
+        """Do nothing: all results are tracked variables."""
 
     def _take(self, uav: int, given: int) -> None:
         if self._custody.take(uav, given):

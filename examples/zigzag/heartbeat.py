@@ -1,20 +1,20 @@
-"""When heartbeats are sent."""
+"""Times of heartbeats."""
 
 import math
 from random import Random
 
 
 class HeartbeatClock:
-    """The times of a node's heartbeats: number k goes out at k * interval + a random delay of up to `jitter`.
+    """Times of a node's heartbeats: number k is sent at k * interval + a random delay of up to `jitter`.
 
-    All nodes count from time zero, so without jitter they all send at exactly the same instants. On a real
-    channel such heartbeats are never heard: a radio that transmits receives nothing. Hence the jitter.
+    All nodes count from time zero. Without jitter they send at exactly the same instants. On a real channel
+    such heartbeats are never received, since a radio that transmits does not receive.
 
     Args:
         interval: Seconds between two heartbeats, > 0.
         jitter: Longest random delay in seconds, 0 (none) to `interval`.
         start: The first heartbeat is the first one after this time in seconds.
-        random: Where the delays come from.
+        random: Random stream for the delays.
     """
 
     def __init__(self, interval: float, jitter: float, start: float, random: Random) -> None:
@@ -28,6 +28,6 @@ class HeartbeatClock:
         self._number = math.floor(start / interval)
 
     def next(self) -> float:
-        """Time of the next heartbeat in seconds."""
+        """Return the time of the next heartbeat in seconds."""
         self._number += 1
         return self._number * self._interval + self._random.uniform(0, self._jitter)

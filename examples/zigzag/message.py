@@ -1,4 +1,4 @@
-"""The messages of ZigZag, and their form on the air: short JSON texts.
+"""Messages of ZigZag and their encoding: short JSON strings.
 
     UAV or ground station             UAV (or ground station)
        heartbeat (broadcast)  ------>
@@ -36,19 +36,19 @@ class GroundHeartbeat:
 
 @dataclass(frozen=True)
 class SensorData:
-    """One reading of a sensor. What was read does not matter here: whoever receives it counts it."""
+    """One reading of a sensor. Its value does not matter here: the receiver only counts it."""
 
     sender: int
 
 
 @dataclass(frozen=True)
 class PairRequest:
-    """The answer to a heartbeat: let us exchange our data and fly apart.
+    """Answer to a heartbeat: a request to exchange data and fly apart.
 
     Attributes:
-        sender: Id of the node that asks.
-        carrier: Id of the one of the two that gets all data.
-        given: What the sender has handed to the receiver so far, in all (see `custody.py`).
+        sender: Id of the requesting node.
+        carrier: Id of the node that gets all data.
+        given: Total number of readings handed to the receiver so far (see `custody.py`).
     """
 
     sender: int
@@ -58,7 +58,7 @@ class PairRequest:
 
 @dataclass(frozen=True)
 class PairConfirmation:
-    """The answer to a `PairRequest`: agreed, and done on my side. Attributes as there."""
+    """Answer to a `PairRequest`: the exchange is done on this side. Attributes as there."""
 
     sender: int
     carrier: int
@@ -71,16 +71,16 @@ _TYPES: dict[str, type[Message]] = {
     cls.__name__: cls for cls in (UavHeartbeat, GroundHeartbeat, SensorData, PairRequest, PairConfirmation)
 }
 
-_to_json = json.JSONEncoder(separators=(",", ":")).encode  # without blanks: every byte takes time on the air
+_to_json = json.JSONEncoder(separators=(",", ":")).encode  # without spaces: every byte takes airtime
 
 
 def encode(message: Message) -> str:
-    """The text that is sent, e.g. `{"type":"SensorData","sender":4}`."""
+    """Return the string to send, e.g. `{"type":"SensorData","sender":4}`."""
     return _to_json({"type": type(message).__name__, **vars(message)})
 
 
 def decode(text: str) -> Message:
-    """The message that `encode` made this text of. Raises ValueError for any other text."""
+    """Return the message encoded in `text`. Raises ValueError for any other string."""
     try:
         fields = json.loads(text)
         return _TYPES[fields.pop("type")](**fields)

@@ -1,4 +1,4 @@
-"""The UAV's part of ZigZag, in which UAVs relay the data of sensors to a ground station.
+"""UAVs of ZigZag, which relay the data of sensors to a ground station.
 
 After T. Lamenza et al., "Developing Algorithms for the Internet of Flying Things Through Environments With
 Varying Degrees of Realism". Each lesson that the authors drew is a parameter here: `heartbeat_jitter`,
@@ -27,23 +27,23 @@ from message import (
 
 
 class ZigZagMobile(IProtocol):
-    """Flies to and fro over the sensors, collects their readings and relays them to the ground station.
+    """Flies back and forth over the sensors, collects their readings and relays them to the ground station.
 
-    All UAVs have the same mission: from the ground station over every sensor and back, again and again.
-    Each advertises itself with heartbeats. A UAV that hears the heartbeat of another asks for an exchange,
-    and the other confirms. After that one of them, the *carrier*, has the data of both and flies towards
-    the ground station; the other has none and flies away from it. So two UAVs that meet turn around, and
-    the data flies on as if they had passed each other. With the ground station it is the same, except that
-    it cannot move: it is always the carrier.
+    All UAVs have the same mission: from the ground station over every sensor and back, in a loop. Each
+    advertises itself with heartbeats. A UAV that hears the heartbeat of another requests an exchange, and the
+    other confirms. Afterwards one of them, the *carrier*, has the data of both and flies towards the ground
+    station. The other one has no data and flies away from it. So two UAVs that meet turn around, and the data
+    flies on as if they had passed each other. The ground station takes part in the same way, except that it
+    does not move: it is always the carrier.
 
-    The carrier of two UAVs is the one that was flying outward; if both fly in the same direction, the one
-    with the lower id. Request and confirmation name the carrier, so the two agree even if each has asked
-    the other.
+    The carrier of two UAVs is the one that was flying outward. If both fly in the same direction, it is the
+    one with the lower id. Request and confirmation name the carrier. So the two agree even if each has sent a
+    request to the other.
 
-    When messages get lost, no data is duplicated, and what a lost message handed over arrives with the next
-    one between the same two nodes (see `custody.py`). A lost request turns nobody around. A lost
-    confirmation turns only the one that sent it around. Either way the two try again at a later heartbeat,
-    if they still hear each other.
+    If messages get lost, no data is duplicated. The data of a lost message arrives with the next message
+    between the same two nodes (see `custody.py`). After a lost request no UAV turns around. After a lost
+    confirmation only its sender turns around. In both cases the two try again at a later heartbeat, if they
+    still hear each other.
 
     Tracked variables:
         data: Readings that the UAV holds.
@@ -56,23 +56,23 @@ class ZigZagMobile(IProtocol):
     heartbeat_jitter: float = 0.1
     """Longest random delay of a heartbeat in seconds; 0: all nodes send at the same instants."""
     interaction_timeout: float = 5.0
-    """Seconds after the launch and after an exchange in which other UAVs and the ground station are ignored
-    (sensors are not), to get out of their reach. 0: two that meet turn around at each heartbeat they hear."""
+    """Seconds after the launch and after an exchange in which the UAV ignores other UAVs and the ground
+    station, but not sensors, to leave their range. 0: two UAVs that meet turn around at each heartbeat."""
     launch_interval: float = 30.0
     """Seconds between the launches of two UAVs: number i starts at i * launch_interval; 0: all at once."""
     sensor_count: int = 5
     """Number of sensors, which stand on the x axis."""
     sensor_spacing: float = 300.0
-    """Metres from the ground station, at x = 0, to the first sensor and from each sensor to the next."""
+    """Meters from the ground station, at x = 0, to the first sensor and from each sensor to the next."""
     altitude: float = 20.0
-    """Metres above ground at which UAV 0 flies."""
+    """Meters above ground at which UAV 0 flies."""
     altitude_step: float = 1.0
-    """Metres by which each UAV flies higher than the one before, so that they pass each other safely."""
+    """Meters between the altitudes of two consecutive UAVs, so that they pass each other safely."""
     speed: float = 10.0
-    """Metres per second."""
+    """Meters per second."""
 
     def initialize(self) -> None:
-        """Start with no data, on the ground."""
+        """Start without data, on the ground."""
         self._custody = Custody()
         self._collected = 0
         self._interactions = 0
@@ -90,7 +90,7 @@ class ZigZagMobile(IProtocol):
         self.provider.schedule_timer("launch", launch_time)
 
     def handle_timer(self, timer: str) -> None:
-        """Launch or send a heartbeat; either way the next heartbeat follows."""
+        """Launch or send a heartbeat, and schedule the next heartbeat."""
         if timer == "launch":
             self._launch()
         else:
@@ -98,7 +98,7 @@ class ZigZagMobile(IProtocol):
         self.provider.schedule_timer("heartbeat", self._heartbeats.next())
 
     def handle_packet(self, message: str) -> None:
-        """Collect the readings of sensors, exchange data with UAVs and the ground station."""
+        """Collect the readings of sensors; exchange data with UAVs and the ground station."""
         if not self._launched:
             return
         match decode(message):
@@ -116,10 +116,10 @@ class ZigZagMobile(IProtocol):
         self._track()
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """The mission follows the telemetry by itself."""
+        """Do nothing: the mission plugin handles telemetry."""
 
     def finish(self) -> None:
-        """All that matters is tracked already."""
+        """Do nothing: all results are tracked variables."""
 
     def _launch(self) -> None:
         height = self.altitude + self.provider.get_id() * self.altitude_step
@@ -138,7 +138,7 @@ class ZigZagMobile(IProtocol):
         self.provider.send_communication_command(BroadcastMessageCommand(encode(heartbeat)))
 
     def _carrier_of_pair(self, peer: int, peer_homeward: bool) -> int:
-        """The one that flies outward; if both fly in the same direction, the one with the lower id."""
+        """Return the UAV that flies outward; if both fly in the same direction, the one with the lower id."""
         me, me_homeward = self.provider.get_id(), self._mission.is_reversed
         if me_homeward == peer_homeward:
             return min(me, peer)

@@ -1,4 +1,4 @@
-"""The sensor's part of ZigZag."""
+"""Sensor of ZigZag."""
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
@@ -14,12 +14,12 @@ class ZigZagSensor(IProtocol):
     """
 
     def initialize(self) -> None:
-        """Start with nothing sent."""
+        """Start the count at 0."""
         self._answered = 0
         self.provider.tracked_variables["answered"] = self._answered
 
     def handle_packet(self, message: str) -> None:
-        """Answer the heartbeat of a UAV; what else is on the air does not concern a sensor."""
+        """Answer the heartbeat of a UAV. Ignore other messages."""
         match decode(message):
             case UavHeartbeat(sender=uav):
                 reading = SensorData(sender=self.provider.get_id())
@@ -28,10 +28,10 @@ class ZigZagSensor(IProtocol):
                 self.provider.tracked_variables["answered"] = self._answered
 
     def handle_timer(self, timer: str) -> None:
-        """A sensor has no timers."""
+        """Do nothing: a sensor has no timers."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """A sensor does not need to know where it is."""
+        """Do nothing: a sensor does not need its position."""
 
     def finish(self) -> None:
-        """All that matters is tracked already."""
+        """Do nothing: all results are tracked variables."""

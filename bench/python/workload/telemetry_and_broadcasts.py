@@ -1,7 +1,7 @@
-"""The work that prototype_vs_published.py measures; runs on any package that offers gradysim's published API.
+"""Workload of prototype_vs_published.py. It runs on any package with gradysim's published API.
 
 Arguments: number of nodes, simulated seconds. Prints a JSON object with the CPU seconds of the run, the
-number of callbacks, and how much the greatest memory grew in the last nine tenths of the simulated time.
+number of callbacks, and the growth of peak memory in the last nine tenths of the simulated time.
 """
 
 import json
@@ -22,7 +22,7 @@ SPACING_M = 5.0  # 24 nodes, 12 on each side, are in the range of 60 m
 
 
 class Node(IProtocol):
-    """Broadcasts once a second and counts what it is told."""
+    """Broadcasts once a second and counts its callbacks."""
 
     def initialize(self) -> None:
         self.packets = 0
