@@ -18,7 +18,7 @@ namespace proxy_protocol {
 
 namespace {
 
-// Bytes that are no UTF-8 become what Python has for them in names of files.
+// Bytes that are not UTF-8 become surrogate escapes, as in Python's file names.
 py::object text_of(const char* what) {
     return py::reinterpret_steal<py::object>(
         PyUnicode_DecodeUTF8(what, static_cast<Py_ssize_t>(std::strlen(what)), "surrogateescape"));

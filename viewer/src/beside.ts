@@ -2,7 +2,7 @@
 
 import { make } from "./dom";
 
-/** What a page says of its clock. */
+/** State of a page's clock. */
 export interface Told {
   timeNs: number;
   speed: number;

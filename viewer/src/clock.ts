@@ -38,7 +38,7 @@ export class Clock {
     if (this.isPlaying && this.timeNs >= this.endNs && !this.mayGrow) this.seek(0);
   }
 
-  /** Go on by so many seconds of the wall clock; return whether something has changed. */
+  /** Advance by `wallS` seconds of wall time; return whether something has changed. */
   advance(wallS: number): boolean {
     const { timeNs, isPlaying } = this;
     // A run that pauses goes on a little: it is followed to where it stands.

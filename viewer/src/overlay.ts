@@ -32,7 +32,7 @@ export class Overlay {
     this.drawScale(context, height);
   }
 
-  /** Call this with the node that was clicked on the 3-D picture; null: none. Dragging is no click. */
+  /** Call `choose` with the node clicked on the 3-D picture, or null for none. Dragging is not a click. */
   onClick(canvas: HTMLCanvasElement, choose: (node: number | null) => void): void {
     const down = { x: 0, y: 0 };
     canvas.addEventListener("pointerdown", ({ offsetX, offsetY }) => Object.assign(down, { x: offsetX, y: offsetY }));

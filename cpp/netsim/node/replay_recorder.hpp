@@ -91,7 +91,7 @@ public:
     void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) override;
     void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) override;
 
-    // Closes the chunk now. Frames whose receptions have not all ended go to the next one.
+    // Closes the chunk now. Frames with receptions in progress go to the next one.
     void close_chunk();
     // At the end of the run: closes the last chunk, with the frames that are on the air.
     void finish();

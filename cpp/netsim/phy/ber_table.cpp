@@ -76,7 +76,7 @@ void check_ascii(const std::string& path, int number, std::string_view text) {
             std::snprintf(code.data(), code.size(), "0x%02X", byte);
             refuse(path, number,
                    std::string("the byte ") + code.data() +
-                       " is no character of a number: expected a CSV file, a text with the line " +
+                       " is not a character of a number: expected a CSV file, a text with the line " +
                        std::string(first_line));
         }
     }
@@ -109,7 +109,7 @@ public:
         require(is_bitrate_of_a_mode(row.bitrate_mbps), "bitrate_mbps", row.bitrate_mbps,
                 "the bitrate of a mode, one of " + bitrates_of_modes_mbps());
         require(row.psdu_bytes >= 1 && row.psdu_bytes <= 1e6 && std::trunc(row.psdu_bytes) == row.psdu_bytes,
-                "psdu_bytes", row.psdu_bytes, "a whole number of bytes from 1 on");
+                "psdu_bytes", row.psdu_bytes, "an integer number of bytes >= 1");
         require(row.success >= 0 && row.success <= 1, "success", row.success, "from 0 to 1");
         return row;
     }

@@ -243,8 +243,8 @@ class RunResult:
     settings_hash: Annotated[
         str,
         Quantity(
-            "Hash of what the file and `--set` say of the run, but for its seed: equal for all repetitions,"
-            " unless a variable is in lock-step with them."
+            "Hash of the settings of the run from the file and `--set`, without its seed: equal for all"
+            " repetitions, unless a variable is in lock-step with them."
         ),
     ] = ""
     file_hashes: Annotated[

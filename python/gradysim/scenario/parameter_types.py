@@ -312,7 +312,7 @@ def _description(value: Value) -> str:
 
 def _not_nan(result: float, value: Value) -> float:
     if math.isnan(result):
-        raise BadValue(f"`{text_of(value)}` is no number")
+        raise BadValue(f"`{text_of(value)}` is not a number")
     return result
 
 

@@ -215,7 +215,7 @@ def _values(part: str, entry: Entry) -> Iterator[str]:
         problem = "a value of `${...}` is empty; expected a list such as `${x=1, 2, 5}`"
     elif _LIKE_A_RANGE.match(part):
         numbers = "expected plain numbers, and the unit behind the brace: `${10..60 step 10}m`"
-        problem = f"`{part}` is no range; {numbers}"
+        problem = f"`{part}` is not a range; {numbers}"
     elif function := distribution_in(part):
         inside = "expected the variable inside of the function: `uniform(0s, ${1, 5}s)`"
         for_a_run = "a value of `${...}` is for a whole run"

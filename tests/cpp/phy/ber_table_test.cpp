@@ -97,7 +97,7 @@ TEST(BerTable, WhatIsMalformedIsRefusedAtItsLine) {
               "24, 36, "
               "48, 54");
     EXPECT_EQ(refusal_of(start + "6,0.5,3,1\n"),
-              "line 2: psdu_bytes = 0.5: expected a whole number of bytes from 1 on");
+              "line 2: psdu_bytes = 0.5: expected an integer number of bytes >= 1");
     EXPECT_EQ(refusal_of(start + "6,100,3,1.5\n"), "line 2: success = 1.5: expected from 0 to 1");
     EXPECT_EQ(refusal_of(start + "6,100,3,0.5\n6,100,2,0.6\n"),
               "line 3: snir_db = 2: expected more than the 3 before it, of the same bitrate and length");
@@ -106,8 +106,9 @@ TEST(BerTable, WhatIsMalformedIsRefusedAtItsLine) {
 }
 
 TEST(BerTable, AnotherEncodingIsRefusedWithTheByte) {
-    const std::string expected = " is no character of a number: expected a CSV file, a text with the line " +
-                                 std::string(header).substr(0, std::string(header).size() - 1);
+    const std::string expected =
+        " is not a character of a number: expected a CSV file, a text with the line " +
+        std::string(header).substr(0, std::string(header).size() - 1);
     EXPECT_EQ(refusal_of(std::string(header) + "24,100,10,0.5\n24,100,12\xB4,1\n"),
               "line 3: the byte 0xB4" + expected);
     EXPECT_EQ(refusal_of(std::string("\x7F"

@@ -11,7 +11,7 @@ namespace netsim {
 
 void refuse_unknown_parameter(std::string_view protocol, std::string_view parameter,
                               const std::vector<std::string_view>& names) {
-    std::string text = "`" + std::string(parameter) + "` is no parameter of " + std::string(protocol);
+    std::string text = "`" + std::string(parameter) + "` is not a parameter of " + std::string(protocol);
     text += names.empty() ? ", which has none"
                           : "; did you mean `" + std::string(nearest_name(parameter, names)) + "`?";
     throw ConfigError(text);

@@ -55,9 +55,9 @@ TEST_F(NativeProtocols, AnUnknownNameIsRefusedWithTheNearest) {
 
 TEST_F(NativeProtocols, AnUnknownParameterIsRefusedWithTheNearest) {
     EXPECT_EQ(error_of("BeaconProtocol", {{"first_sent", 1.0}}),
-              "`first_sent` is no parameter of BeaconProtocol; did you mean `first_send`?");
+              "`first_sent` is not a parameter of BeaconProtocol; did you mean `first_send`?");
     EXPECT_EQ(error_of("ZigZagSensorProtocol", {{"speed", 1.0}}),
-              "`speed` is no parameter of ZigZagSensorProtocol, which has none");
+              "`speed` is not a parameter of ZigZagSensorProtocol, which has none");
 }
 
 TEST_F(NativeProtocols, AValueOfAnotherKindIsRefused) {
