@@ -1,4 +1,4 @@
-"""The command, called in this process or as a process of its own, and the folder that it runs in."""
+"""The command, called in this process or as a separate process, and its directory."""
 
 import contextlib
 import io
@@ -107,25 +107,25 @@ Gradysim = Callable[..., subprocess.CompletedProcess[str]]
 
 
 def environment() -> dict[str, str]:
-    """Of a process that finds the same modules as this one, and buffers its output as most users' do."""
+    """Return the environment of a process with the modules of this one and buffered output."""
     inherited = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
     return {**inherited, "PYTHONPATH": os.pathsep.join(sys.path), "COLUMNS": "100"}
 
 
 def run_command(folder: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    """Run any command in a folder, a minute at most."""
+    """Run any command in a directory, for at most a minute."""
     return subprocess.run(
         command, cwd=folder, env=environment(), capture_output=True, text=True, timeout=60, check=False
     )
 
 
 def run_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the command in a folder, as a process of its own. `call_gradysim` takes a tenth of the time."""
+    """Run the command in a directory, as a separate process. `call_gradysim` takes a tenth of the time."""
     return run_command(folder, sys.executable, "-m", "gradysim", *arguments)
 
 
 def call_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Call the command in a folder, in this process, which it forks for each run."""
+    """Call the command in a directory, in this process, which it forks for each run."""
     output, error_output = io.StringIO(), io.StringIO()
     streams = contextlib.redirect_stdout(output), contextlib.redirect_stderr(error_output)
     with contextlib.chdir(folder), streams[0], streams[1], pytest.MonkeyPatch.context() as patch:
@@ -138,18 +138,18 @@ def call_gradysim(folder: Path, *arguments: str) -> subprocess.CompletedProcess[
 
 
 def run_without(module: str, folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the command in a folder where a module is not installed."""
+    """Run the command in a directory where a module is not installed."""
     code = f"import sys; sys.modules[{module!r}] = None; from gradysim.cli.app import main; sys.exit(main())"
     return run_command(folder, sys.executable, "-c", code, *arguments)
 
 
 def objects(output: str) -> list[dict]:
-    """The JSON objects of an output, one in each line."""
+    """Return the JSON objects of an output, one per line."""
     return [json.loads(line) for line in output.splitlines()]
 
 
 def interrupt_endless_run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """Run the config `Endless` in a folder, and end it with Ctrl-C once it has begun."""
+    """Run the config `Endless` in a directory, and end it with Ctrl-C after its start."""
     command = [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", *arguments]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
     with subprocess.Popen(command, cwd=folder, env=environment(), text=True, **pipes) as process:

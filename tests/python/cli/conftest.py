@@ -1,4 +1,4 @@
-"""A folder with protocols and an .ini file, and the command in it."""
+"""A directory with protocols and an .ini file, and the command in it."""
 
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,6 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def gradysim(folder: Path) -> Gradysim:
-    """`gradysim(*arguments)` calls the command in the folder with test.ini."""
+    """`gradysim(*arguments)` calls the command in the directory with test.ini."""
 
     return partial(call_gradysim, folder)

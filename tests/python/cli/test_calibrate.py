@@ -1,4 +1,4 @@
-"""`gradysim calibrate`: with the line that it prints, a run receives what was promised."""
+"""`gradysim calibrate`: with the printed line, a run has the promised receptions."""
 
 import math
 import re
@@ -32,9 +32,9 @@ Received = Callable[..., float]
 
 @pytest.fixture
 def received(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Received:
-    """`received(200.0, 0.5, 2000, *settings)`: the share of 2000 frames at 200 m, calibrated for half.
+    """`received(200.0, 0.5, 2000, *settings)`: ratio of 2000 frames at 200 m, calibrated for one half.
 
-    With `unit="dBm"` the power is the one that the text has in dBm.
+    With `unit="dBm"` the power is the printed one in dBm.
     """
     file = tmp_path / "pair.ini"
 

@@ -1,4 +1,4 @@
-"""The text and the picture of a calibration; tests of its figures are in tests/python/integrated."""
+"""Text and picture of a calibration; tests of its values are in tests/python/integrated."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""`gradysim run --pcap`: which files are written, and what is refused."""
+"""`gradysim run --pcap`: written files, and rejected arguments."""
 
 from functools import partial
 from pathlib import Path
@@ -36,7 +36,7 @@ repeat = 3
 
 @pytest.fixture
 def gradysim_run(tmp_path: Path) -> Gradysim:
-    """`gradysim_run(*arguments)` runs `gradysim run test.ini` in the test's folder."""
+    """`gradysim_run(*arguments)` runs `gradysim run test.ini` in the test's directory."""
     (tmp_path / "protocol.py").write_text(PROTOCOL)
     (tmp_path / "test.ini").write_text(INI)
 
@@ -110,7 +110,7 @@ def test_a_resumed_run_is_repeated_for_a_capture_without_its_end(
     whole = capture.read_bytes()
     (tmp_path / "results/General-#0.integrated.json").unlink()
     gradysim_run(*arguments, *earlier)
-    capture.write_bytes(whole[:-1])  # what a run that is killed leaves
+    capture.write_bytes(whole[:-1])  # as left by a killed run
     assert gradysim_run(*arguments, "--pcap", "uavs[0]").stderr == ""
     assert capture.read_bytes() == whole
 

@@ -17,7 +17,7 @@ def function_in(filename, source):
 
 
 def failure_through(*filenames):
-    """An exception raised in a file of the last name, called from one of the name before it, and so on."""
+    """Return an exception raised in a file of the last name, called from the name before it, and so on."""
 
     function = function_in(filenames[-1], "def function(): raise RuntimeError('spoilt')")
     for filename in reversed(filenames[:-1]):

@@ -1,4 +1,4 @@
-"""What Ctrl-C does to a run."""
+"""Effect of Ctrl-C on a run."""
 
 from python.cli.command import PROTOCOL, both_modes, interrupt_endless_run, objects
 

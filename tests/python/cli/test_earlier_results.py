@@ -1,4 +1,4 @@
-"""`gradysim run` into a directory that has results: none is replaced by less, or by another one unasked."""
+"""`gradysim run` into a directory with results: it replaces only outdated or incomplete ones."""
 
 import json
 import os
@@ -25,7 +25,7 @@ def content(directory):
 
 @pytest.fixture
 def out(gradysim, folder):
-    """A directory with the results of three runs."""
+    """Return a directory with the results of three runs."""
     gradysim(*RUN, "--result-dir", "out")
     return folder / "out"
 
@@ -66,7 +66,7 @@ def test_a_second_run_with_the_same_settings_replaces_the_first(gradysim, out):
     before = content(out)
     assert gradysim(*RUN, "--result-dir", "out").returncode == 0
     assert content(out).keys() == before.keys()
-    assert content(out) != before  # they have other wall times
+    assert content(out) != before  # their wall times differ
 
 
 def test_ten_thousand_runs_are_looked_for_without_reading_them(folder, monkeypatch):
@@ -146,7 +146,7 @@ def test_an_incomplete_result_replaces_an_incomplete_one(gradysim, folder):
 
 @pytest.fixture
 def other_command(folder):
-    """A command that computes run 0, and waits in it until the pipe is opened for writing."""
+    """Return a command that computes run 0, and waits in it until the pipe is opened for writing."""
     (folder / "stops.py").write_text(PROTOCOLS)
     os.mkfifo(folder / "pipe")
     with subprocess.Popen(

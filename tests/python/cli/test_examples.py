@@ -1,4 +1,4 @@
-"""The examples of `gradysim new --example`, in a directory of a user."""
+"""Examples of `gradysim new --example`, in a user's directory."""
 
 import shlex
 import subprocess

@@ -15,7 +15,7 @@ SCENARIO = SimpleNamespace(config="General", run_number=0, sim_time_limit_s=10.0
 
 
 class FakeRun:
-    """A run that ends as it is told to."""
+    """A run with a given end."""
 
     def __init__(self, ending=None, interrupted=False):
         self.ending, self.interrupted = ending, interrupted

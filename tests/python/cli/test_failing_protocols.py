@@ -1,4 +1,4 @@
-"""What a user sees of a protocol that fails."""
+"""Output for a failing protocol."""
 
 import contextlib
 import os
@@ -33,7 +33,7 @@ OF_CARELESS = ("--set", '*.uavs[*].protocol.class = "protocol.py:Careless"', "--
 
 
 def assert_told_with_results(done, folder, mode, error):
-    """It failed in a callback of Careless, and what was computed until then is shown and kept."""
+    """Check that a callback of Careless failed, and that earlier results are printed and kept."""
     assert done.returncode == 1
     assert done.stderr.splitlines()[-2] == error
     assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
@@ -153,7 +153,7 @@ def test_a_protocol_that_ends_the_process_of_a_terminal_leaves_it_with_its_curso
     )
     os.close(theirs)
     shown = b""
-    with os.fdopen(ours, "rb", buffering=0) as terminal, contextlib.suppress(OSError):  # nothing more comes
+    with os.fdopen(ours, "rb", buffering=0) as terminal, contextlib.suppress(OSError):  # end of the output
         while chunk := terminal.read(4096):
             shown += chunk
     assert done.returncode == 1

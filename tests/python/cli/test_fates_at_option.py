@@ -1,4 +1,4 @@
-"""`gradysim run --fates-at`: what is told of single nodes, and what is refused."""
+"""`gradysim run --fates-at`: reports of single nodes, and rejected arguments."""
 
 from python.cli.command import compiled, objects
 

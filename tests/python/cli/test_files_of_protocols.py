@@ -1,4 +1,4 @@
-"""What protocols write to files themselves, when a configuration has several runs."""
+"""Files written by protocols, in a configuration with several runs."""
 
 import pytest
 

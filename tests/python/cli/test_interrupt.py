@@ -90,7 +90,7 @@ def test_a_worker_counts_one_press_that_terminal_and_command_tell_of_once():
             assert interrupt.should_stop()
             with pytest.raises(KeyboardInterrupt), interrupt.executing():
                 signal.raise_signal(FORWARDED)
-            signal.raise_signal(signal.SIGINT)  # of the same, second press
+            signal.raise_signal(signal.SIGINT)  # same sender, second press
     finally:
         signal.signal(FORWARDED, before)
 

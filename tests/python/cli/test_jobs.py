@@ -1,4 +1,4 @@
-"""`gradysim run --jobs`: several runs at once."""
+"""`gradysim run --jobs`: several runs at the same time."""
 
 import errno
 import os
@@ -229,7 +229,7 @@ def test_a_system_that_cannot_fork_has_one_job(gradysim, monkeypatch):
 
 @pytest.fixture
 def two_endless_runs(folder):
-    """The command with two processes that have begun, and what ends when they do."""
+    """Return the command with two running processes, and a handle that ends when they do."""
     (folder / "tells.py").write_text(TELLS)
     os.mkfifo(folder / "pipe")
     arguments = ["test.ini", "-c", "Endless", "--mode", "prototype", "--json", "-j", "2"]

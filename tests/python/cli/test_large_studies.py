@@ -1,4 +1,4 @@
-"""Studies of many runs: they begin at once, and a run costs no more than in a small study."""
+"""Studies of many runs: they start at once, and a run costs no more than in a small study."""
 
 import resource
 import subprocess
@@ -43,5 +43,5 @@ def test_a_study_of_100_000_runs_reaches_its_first_run_with_little_memory(tmp_pa
     assert done.returncode == FAILED
     assert "in the first run" in done.stderr
     assert "99999 were not begun (1..99999)" in done.stderr
-    assert after.ru_utime - before.ru_utime < 10  # of the processor; checking all runs took minutes
+    assert after.ru_utime - before.ru_utime < 10  # CPU time; checking all runs took minutes
     assert after.ru_maxrss * 1024 < max(MOST_MEMORY, before.ru_maxrss * 1024 + 1)

@@ -1,4 +1,4 @@
-"""`gradysim run --memory`: a run that needs more fails, and the others go on."""
+"""`gradysim run --memory`: a run that needs more fails, and the others continue."""
 
 import sys
 

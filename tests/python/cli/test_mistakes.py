@@ -1,4 +1,4 @@
-"""What a user is told who made a mistake."""
+"""Messages about errors of the user."""
 
 import pytest
 
@@ -41,7 +41,7 @@ def test_a_mistake_that_only_the_whole_network_shows_is_found_before_a_single_ru
 @compiled
 @pytest.mark.parametrize(("runs", "checked"), [("0", 0), ("0..2", 1)])
 def test_a_single_network_is_not_built_before_its_run(gradysim, monkeypatch, runs, checked):
-    built = []  # in this process, not in those of the runs
+    built = []  # in this process, not in the processes of the runs
 
     def build_network(scenario, build=network.build_network):
         built.append(scenario)

@@ -1,4 +1,4 @@
-"""`gradysim run --scalars` and `--vectors`: which files are written, what is in them, and what is refused."""
+"""`gradysim run --scalars` and `--vectors`: written files, their content, and rejected arguments."""
 
 import json
 import resource
@@ -66,7 +66,7 @@ def test_fates_at_nodes_are_scalars(gradysim, folder):
 
 
 def values_of(folder, name):
-    """Of a scalar, in all files of the folder."""
+    """Return the values of a scalar in all files of the directory."""
     return [row["value"] for row in read_scalars(folder.glob("*.sca"), [name])]
 
 
@@ -173,7 +173,7 @@ def test_resumed_runs_are_repeated_for_files_of_an_earlier_run(gradysim):
 
 @pytest.fixture
 def resumed(gradysim, folder):
-    """`resumed(*options)`: the numbers of the runs done anew, of one that left both kinds of files."""
+    """`resumed(*options)`: numbers of the repeated runs, out of one that left both kinds of files."""
     arguments = (*PROTOTYPE, "--result-dir", "out", "-r", "0", "--json")
     gradysim(*arguments, "--scalars", "--vectors", "uavs")
 
@@ -347,7 +347,7 @@ def test_a_file_that_cannot_be_written(gradysim, folder):
 
 @contextmanager
 def disk_of(size):
-    """Files of this process and of those that it starts have so many bytes at most."""
+    """Limit the size in bytes of files of this process and of its children."""
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
     try:

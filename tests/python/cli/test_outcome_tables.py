@@ -30,7 +30,7 @@ def lines(renderable, width=100):
 
 
 def network(*outcomes):
-    """Counts of a network with these outcomes, in this order."""
+    """Return counts of a network with these outcomes, in this order."""
     return {"broadcast": dict.fromkeys(outcomes, 1)}
 
 

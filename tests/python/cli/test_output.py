@@ -1,4 +1,4 @@
-"""Outputs that take no more: a full disk, a reader that has gone, a closed one."""
+"""Failing outputs: a full disk, a reader that has exited, a closed stream."""
 
 import errno
 import os
@@ -14,7 +14,7 @@ from python.cli.command import compiled, environment, run_command
 FULL_DISK = Path("/dev/full")
 
 QUIET = ["--set", "*.uavs[*].protocol.class=protocol.py:Quiet"]
-"""Protocols that print nothing themselves."""
+"""Protocols that print nothing."""
 
 EVERY_COMMAND = pytest.mark.parametrize(
     "arguments",
@@ -22,7 +22,7 @@ EVERY_COMMAND = pytest.mark.parametrize(
         ["--help"],
         ["--version"],
         ["keys"],
-        ["runs", "test.ini"],  # which ends before its buffer is full
+        ["runs", "test.ini"],  # it ends before its buffer is full
         ["run", "test.ini", "--mode", "prototype", *QUIET],
         ["run", "test.ini", "--mode", "prototype", *QUIET, "--json"],
         pytest.param(["calibrate", "test.ini", "--range", "50m"], marks=compiled),
@@ -31,7 +31,7 @@ EVERY_COMMAND = pytest.mark.parametrize(
 
 
 def run_with_output(folder, output, arguments, **variables):
-    """The command with a file as its standard output."""
+    """Run the command with a file as its standard output."""
     return subprocess.run(
         [sys.executable, "-m", "gradysim", *arguments],
         cwd=folder,

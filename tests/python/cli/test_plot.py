@@ -17,7 +17,7 @@ def rows(file):
 
 @pytest.fixture
 def study(gradysim, folder):
-    """Three runs of each of two time limits in prototype mode, with vectors, in the folder `out`."""
+    """Write three runs for each of two time limits in prototype mode, with vectors, to `out`."""
     limits = ("--set", "sim-time-limit=${limit=3, 5}.5s", "--set", "seed-set=${repetition}")
     options = ("--mode", "prototype", "--vectors", "uavs", "--result-dir", "out", "--quiet")
     gradysim("run", "test.ini", *limits, *options)

@@ -1,4 +1,4 @@
-"""Protocols that fork in a callback, or leave a thread running: one run, one result, one exit code."""
+"""Protocols that fork in a callback, or leave a running thread: one run, one result, one exit code."""
 
 import json
 import sys
@@ -61,7 +61,7 @@ class LeavesAThread(Talker):
 
 
 def is_running(pid: int) -> bool:
-    """Whether a process goes on, and is not a zombie that waits for its parent."""
+    """Return whether a process runs, and is not a zombie."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     except FileNotFoundError:

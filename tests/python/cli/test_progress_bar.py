@@ -33,5 +33,5 @@ def test_the_bar_is_for_terminals(folder, options, bar):
 def read_terminal(terminal):
     try:
         return terminal.read(4096)
-    except OSError:  # how Linux says that the other side has gone
+    except OSError:  # on Linux: the other side is closed
         return b""

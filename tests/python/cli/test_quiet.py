@@ -1,4 +1,4 @@
-"""`gradysim run --quiet`: nothing, unless something is wrong."""
+"""`gradysim run --quiet`: no output without an error."""
 
 from python.cli.command import both_modes, compiled, objects
 

@@ -1,4 +1,4 @@
-"""`gradysim run` with values that are drawn."""
+"""`gradysim run` with random values."""
 
 import json
 

@@ -21,7 +21,11 @@ def test_files_of_results_are_written_to_it(gradysim, folder):
 
 @pytest.mark.parametrize(
     ("name", "reason"),
-    [("test.ini", "it is not a directory"), ("dangling", "it is not a directory"), ("d" * 300, "File name too long")],
+    [
+        ("test.ini", "it is not a directory"),
+        ("dangling", "it is not a directory"),
+        ("d" * 300, "File name too long"),
+    ],
 )
 def test_a_folder_that_cannot_be_is_named_with_its_option(folder, gradysim, name, reason):
     (folder / "dangling").symlink_to("nowhere/at/all")

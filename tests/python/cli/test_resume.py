@@ -1,4 +1,4 @@
-"""`gradysim run --resume`: what is left of many runs."""
+"""`gradysim run --resume`: remaining runs."""
 
 import json
 

@@ -1,4 +1,4 @@
-"""`gradysim run` as a user meets it: a process with arguments, output and an exit code."""
+"""`gradysim run` as a user sees it: a process with arguments, output and an exit code."""
 
 import contextlib
 import io
@@ -186,7 +186,7 @@ def test_runs_lists_the_runs(gradysim):
 
 
 def in_ascii(folder, *arguments):
-    """What the command says where the output takes ASCII only."""
+    """Return the output of the command if the stream takes ASCII only."""
     return subprocess.run(
         [sys.executable, "-m", "gradysim", *arguments],
         cwd=folder,
@@ -245,7 +245,7 @@ def test_calibrate_draws_the_picture_that_was_asked_for(gradysim, folder):
 
 @compiled
 def test_the_command_can_be_called_from_python(folder):
-    output = io.StringIO()  # which has no encoding
+    output = io.StringIO()  # without an encoding
     with contextlib.redirect_stdout(output):
         assert main(["calibrate", str(folder / "test.ini"), "--range", "50m"]) == 0
     assert 40 * "█" in output.getvalue()

@@ -1,4 +1,4 @@
-"""Runs by another executor, and the line about those that are missing."""
+"""Runs by another executor, and the line about missing runs."""
 
 from concurrent.futures import ThreadPoolExecutor
 

@@ -1,4 +1,4 @@
-"""The executor, with tasks that are functions of these tests."""
+"""The executor, with functions of these tests as tasks."""
 
 import io
 import os
@@ -15,7 +15,7 @@ from gradysim.cli.runner import ForkExecutor, WorkerError
 
 @pytest.fixture(params=[1, 3])
 def executor(request, monkeypatch):
-    """It captures what tasks print, as standard output has no file descriptor."""
+    """Return an executor that captures the output of tasks, since standard output has no file descriptor."""
     monkeypatch.setattr(sys, "stdout", io.StringIO())
     monkeypatch.setattr(sys, "stderr", io.StringIO())
     with ForkExecutor(request.param, StopOnInterrupt()) as executor:

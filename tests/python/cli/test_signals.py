@@ -1,4 +1,4 @@
-"""What SIGTERM, SIGHUP and SIGKILL do to a command and to the processes that carry out its runs."""
+"""Effect of SIGTERM, SIGHUP and SIGKILL on a command and its worker processes."""
 
 import contextlib
 import json
@@ -19,7 +19,7 @@ from python.processes import session, wait_until
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
 
 ENDS_WITHIN_S = 3.0
-"""It takes 0.4 s after SIGTERM and SIGHUP, unless the machine does other things, too."""
+"""Usually 0.4 s after SIGTERM and SIGHUP; longer on a busy machine."""
 
 PROTOCOLS = """
 import os
@@ -55,7 +55,7 @@ Begin = Callable[..., subprocess.Popen[str]]
 
 @pytest.fixture
 def begin(folder: Path) -> Iterator[Begin]:
-    """`begin(protocol, runs, *arguments)`: the command once these runs have begun, in its own session."""
+    """`begin(protocol, runs, *arguments)`: the command after the start of these runs, in its own session."""
     (folder / "signals.py").write_text(PROTOCOLS)
     begun = []
 
@@ -132,7 +132,7 @@ def test_signals_to_the_whole_group_at_once_are_one_press(begin):
     for number in (signal.SIGTERM, signal.SIGHUP):
         os.killpg(process.pid, number)
     out, err = process.communicate(timeout=20)
-    assert process.returncode in (143, 129)  # that of the one that comes first
+    assert process.returncode in (143, 129)  # of the first one that arrives
     assert [run["interrupted"] for run in objects(out)] == [True, True]
     assert "Traceback" not in err
 
@@ -152,7 +152,7 @@ def ignore_hangup() -> None:
 
 
 def status(pid: int) -> dict[str, str]:
-    """What the kernel says of a process."""
+    """Return the kernel's status of a process."""
     lines = Path(f"/proc/{pid}/status").read_text().splitlines()
     return {name: value.strip() for name, _, value in (line.partition(":") for line in lines)}
 
@@ -181,7 +181,7 @@ def test_a_terminal_that_is_closed_costs_no_results(begin, folder, jobs):
 
 
 def control_terminal() -> None:
-    """Be the leader of a session whose terminal is standard input."""
+    """Become the leader of a session whose terminal is standard input."""
     os.setsid()
     import fcntl
     import termios

@@ -1,4 +1,4 @@
-"""What protocols leave in classes and modules, and what they import late."""
+"""State that protocols leave in classes and modules, and late imports."""
 
 import json
 

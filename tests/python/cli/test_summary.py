@@ -43,7 +43,7 @@ def printed(width=100, details=True, **changes):
 
 
 def short_rows(width=80, **changes):
-    """The rows of the summary, as lists of words; \xa0 is no end of a word here."""
+    """Return the rows of the summary, as lists of words; \xa0 does not separate words here."""
     text = printed(width, details=False, **changes)
     assert all(len(line) <= width for line in text.splitlines())
     return [[word for word in line.split(" ") if word] for line in text.splitlines()]
@@ -321,7 +321,7 @@ def test_many_nodes_are_cut_short(count, shown):
 
 
 def told_nodes(count):
-    """Nodes of a run that was asked for what became of frames there."""
+    """Return nodes of a run with outcomes of frames."""
     fates = {"broadcast": {"delivered": 2, "interference": 1}}
     told = {
         "frame_fates": fates,

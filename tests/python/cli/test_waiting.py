@@ -9,7 +9,7 @@ from gradysim.cli.progress import EVERY_S, FIRST_AFTER_S, tell_until, waiting
 
 
 class EndsAfter:
-    """Comes at the n-th time that somebody waits for it, and takes no time."""
+    """Is set at the n-th wait, without taking time."""
 
     def __init__(self, times: int) -> None:
         self.left = times

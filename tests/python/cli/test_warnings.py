@@ -1,4 +1,4 @@
-"""What the command says of lines that are allowed and seldom meant."""
+"""Warnings about valid lines that are probably not intended."""
 
 from collections.abc import Callable
 from pathlib import Path

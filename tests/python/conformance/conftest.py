@@ -1,4 +1,4 @@
-"""Lets the tests of this folder import what they share, `scripted.py`."""
+"""Import path of the shared modules of this directory, such as `scripted.py`."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Scenarios in which the network makes no difference: what both modes have to agree upon to the letter."""
+"""Scenarios in which the network makes no difference, so that both modes must agree exactly."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,15 +22,15 @@ MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
 
 @dataclass(frozen=True)
 class Case:
-    """A network on a perfect channel, in which no node moves before its protocol says so.
+    """A network on a perfect channel. Nodes do not move before their protocols move them.
 
     Attributes:
-        positions: One node each, in meters.
-        range_m: Of all radios, in both modes.
-        seed: Of the run.
+        positions: One per node, in meters.
+        range_m: Range of all radios, in both modes.
+        seed: Seed of the run.
         telemetry_interval_s: 0 for none.
-        speed_mps: Of all vehicles, until they are told otherwise.
-        duration_s: Of the run.
+        speed_mps: Initial speed of all vehicles.
+        duration_s: Duration of the run.
     """
 
     positions: Sequence[Position]
@@ -41,11 +41,11 @@ class Case:
     speed_mps: float = 10.0
 
     def run(self, mode: str, *protocols: type[IProtocol]) -> RunResult:
-        """Run it in one of `MODES`; the last protocol is that of all further nodes, too."""
+        """Run it in one of `MODES`. The last protocol also runs on all further nodes."""
         return MODES[mode](self.scenario(*protocols))
 
     def scenario(self, *protocols: type[IProtocol]) -> Scenario:
-        """What both modes are given."""
+        """Return the scenario for both modes."""
         nodes = tuple(
             NodeSpec(
                 id=index,

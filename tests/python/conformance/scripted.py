@@ -1,4 +1,4 @@
-"""Protocols that do what a script says, at any of their callbacks, and a log of these."""
+"""Protocols that execute a script in their callbacks, and a log of the callbacks."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from gradysim.protocol.messages.communication import BroadcastMessageCommand, Se
 from gradysim.protocol.messages.telemetry import Telemetry
 
 TICKS_PER_S = 100
-"""Timers are set for whole numbers of these, so that many meet in one instant, telemetry among them."""
+"""Timers are set for integers of ticks. So many events share an instant, telemetry among them."""
 
 Entry = tuple[float, int, str, str]
 """A callback: time in seconds, node, method, argument."""
@@ -19,13 +19,13 @@ Entry = tuple[float, int, str, str]
 
 @dataclass(frozen=True)
 class Action:
-    """One thing that a protocol does.
+    """One action of a protocol.
 
     Attributes:
-        kind: What it does; "draw" tracks a random number.
-        number: Name of a timer or of a variable, or how far from the sender in the circle of nodes the
-            receiver is.
-        delay: For "schedule": from now, in ticks.
+        kind: Kind of action; "draw" tracks a random number.
+        number: Name of a timer or of a variable, or distance of the receiver from the sender in the circle of
+            nodes.
+        delay: For "schedule": ticks from now.
     """
 
     kind: Literal["broadcast", "unicast", "schedule", "cancel", "draw", "track"]
@@ -34,16 +34,16 @@ class Action:
 
 
 Script = Sequence[Sequence[Action]]
-"""For one callback after the other what a protocol does; from the start again after the last line."""
+"""Actions for one callback after the other; the script starts again after its last line."""
 
 
 class Scripted(IProtocol):
-    """Follows its script, each node from another line on, until its budget is used up."""
+    """Executes its script until its budget is used up. Each node starts at another line."""
 
     log: ClassVar[list[Entry]]
     script: ClassVar[Script]
     node_count: ClassVar[int]
-    budget = 40  # actions: scripts may go round in circles within one instant
+    budget = 40  # actions; scripts may loop within one instant
 
     def initialize(self) -> None:
         self.callbacks = 0
@@ -83,7 +83,7 @@ class Scripted(IProtocol):
                 destination = (provider.get_id() + steps) % self.node_count
                 provider.send_communication_command(SendMessageCommand(text, destination))
             case "schedule":
-                # One division: the sum of two rounded times need not be the rounded sum.
+                # One division, since the sum of two rounded times need not be the rounded sum.
                 tick = round(provider.current_time() * TICKS_PER_S) + action.delay
                 provider.schedule_timer(f"timer {action.number}", tick / TICKS_PER_S)
             case "cancel":
@@ -96,11 +96,11 @@ class Scripted(IProtocol):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What both modes have to agree upon.
+    """Observations on which both modes must agree.
 
     Attributes:
-        log: All callbacks in their order.
-        tracked: The variables of each node at the end.
+        log: All callbacks, in order.
+        tracked: Variables of each node at the end.
         copies: {kind: (delivered, in the air at the end, out of range)}.
     """
 
@@ -114,7 +114,7 @@ def play(mode: str, case: Case, script: Script) -> Outcome:
     log: list[Entry] = []
     members = {"log": log, "script": script, "node_count": len(case.positions)}
     result = case.run(mode, type("Scripted", (Scripted,), members))
-    # The engine's name for what is out of range is that of the radios which it has else.
+    # In the engine, messages out of range are below the sensitivity.
     ledger, far = {"integrated": ("frames", "below_sensitivity"), "prototype": ("copies", "out_of_range")}[
         mode
     ]

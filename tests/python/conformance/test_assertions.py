@@ -28,7 +28,7 @@ Check = Callable[..., None]
 
 
 class Climbing(IProtocol):
-    """Climbs at 10 m/s to 10 m, and says so to the other one after 0.5 s."""
+    """Climbs at 10 m/s to 10 m, and sends a message to the other node after 0.5 s."""
 
     def initialize(self) -> None:
         self.heard = 0
@@ -79,7 +79,7 @@ def together(height: float) -> type[SimulationTestCase]:
     @assert_always_true_for_simulation("they climb together", f"up to {height:g} m")
     def are_together(nodes: list[Node[Any]]) -> bool:
         heights = [node.position[2] for node in nodes]
-        # In prototype mode the nodes move one after the other, by 10 cm.
+        # In prototype mode the nodes move in turn, by 10 cm.
         return max(heights) - min(heights) < 0.11 and max(heights) <= height
 
     return are_together

@@ -1,4 +1,4 @@
-"""Nodes of a scenario that autopilots fly, with the toy in ArduCopter's place, in both modes."""
+"""Nodes of a scenario with autopilots in both modes; a toy replaces ArduCopter."""
 
 import asyncio
 import gc
@@ -54,7 +54,7 @@ def test_a_node_is_flown_where_its_protocol_sends_it(flown_scenario, mode):
 
 
 def test_sent_below_the_ground_it_stands_at_that_place(flown_scenario, mode):
-    """And not where the straight way there meets the ground."""
+    """It does not land where the straight path meets the ground."""
     landing = FLYER.replace("40, -20, 15", "40, -20, -30").replace("0, 10, 20", "40, -20, -30")
     settings = ("*.uavs[0].mobility.speed = 4mps", "sim-time-limit = 25s")
     track = track_of(mode.run(flown_scenario(landing, *settings)))
@@ -71,7 +71,7 @@ def test_the_flight_is_the_same_in_both_modes(flown_scenario):
 
 
 def test_it_starts_where_the_file_says_in_both_modes(flown_scenario, mode):
-    """The vehicle hovers near by; its node is there from the first update on."""
+    """The vehicle hovers near its node, which has the exact position from the first update on."""
     at_once = (
         FLYER.replace("def initialize(self):", "def initialize(self):\n        self.note()")
         + """
@@ -97,7 +97,7 @@ def test_a_node_beside_it_has_no_mass_as_ever(flown_scenario, make_scenario, mod
 
 
 def test_it_flies_in_a_notebook_too(flown_scenario, mode):
-    """Where an asyncio loop runs in the same thread."""
+    """An asyncio loop runs in the same thread."""
     scenario = flown_scenario(FLYER, "sim-time-limit = 2s")
 
     async def cell():

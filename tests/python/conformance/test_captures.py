@@ -1,4 +1,4 @@
-"""A minute of ZigZag5 captured at every node: what scapy and tshark read is what the ledger counts."""
+"""A minute of ZigZag5 captured at every node: the frames in scapy and tshark are those in the results."""
 
 import json
 import os
@@ -21,7 +21,7 @@ from scapy.layers.inet import IP, UDP
 from scapy.utils import PcapReader
 
 NODES = ["uavs[0]", "uavs[1]", *(f"sensors[{i}]" for i in range(5)), "groundStation"]
-LONGEST_PROPAGATION_S = Decimal("0.000001")  # 300 m: nobody understands anybody from farther away
+LONGEST_PROPAGATION_S = Decimal("0.000001")  # 300 m, beyond the range of all nodes
 
 needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed")
 
@@ -51,17 +51,17 @@ class Seen:
 @dataclass(frozen=True)
 class Minute:
     frames: dict[str, dict[str, int]]
-    """The ledger: {kind: {fate: copies}}."""
+    """Outcomes: {kind: {outcome: receptions}}."""
     files: dict[str, Path]
     seen: dict[str, list[Seen]]
 
     def copies(self, kind: str, *fates: str) -> int:
-        """The ledger's copies of a kind in these fates (all, if none), at their addressees and at others."""
+        """Return the receptions of a kind with these outcomes (all, if none), at addressees and others."""
         books = (self.frames[kind], self.frames.get(f"{kind} overheard", {}))
         return sum(count for book in books for fate, count in book.items() if not fates or fate in fates)
 
     def count(self, kind: str, *, sent: bool, bad: bool = False) -> int:
-        """The same from the files."""
+        """Return the same count from the files."""
         return sum(
             (one.kind, one.sent, one.bad) == (kind, sent, bad) for all_ in self.seen.values() for one in all_
         )
@@ -76,7 +76,7 @@ def minute(tmp_path_factory: pytest.TempPathFactory) -> Minute:
             *(sys.executable, "-m", "gradysim", "run", str(root / "configs/zigzag.ini"), "-c", "ZigZag5"),
             *("--set", "sim-time-limit = 60s", "--json", "--result-dir", str(folder)),
             *("--set", "**.wlan[*].mac.dcf.rtsPolicy.rtsThreshold = 120B"),
-            # So much more than it takes that frames from some way off fail.
+            # High enough that distant frames fail.
             *("--set", "**.wlan[*].radio.receiver.snirThreshold = 15dB", "--pcap", "all"),
         ],
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
@@ -163,7 +163,7 @@ def test_checksums_and_lengths_of_the_datagrams(minute: Minute) -> None:
 
 
 def tshark(file: Path, *arguments: str) -> list[list[str]]:
-    """The fields that tshark prints, line by line; it has nothing to complain about."""
+    """Return the fields that tshark prints, line by line, and check that it reports no errors."""
     checks = [f"{name}.check_checksum:TRUE" for name in ("wlan", "ip", "udp")]
     options = [word for check in checks for word in ("-o", check)]
     done = subprocess.run(

@@ -1,4 +1,4 @@
-"""The same seed gives the same run: again, beside another run, in another process; another seed does not."""
+"""The same seed gives the same run: again, next to another run, in another process. Another seed does not."""
 
 import json
 import os
@@ -34,7 +34,7 @@ alone = cache(fly)
 
 
 def what_happened(result: RunResult) -> tuple[object, ...]:
-    """All but the time that it took."""
+    """Return the result without its run times."""
     return result.events, result.fingerprint, result.fates, result.nodes
 
 

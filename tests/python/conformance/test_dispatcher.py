@@ -1,4 +1,4 @@
-"""The dispatcher calls the same handlers in the same order in both modes, also those registered meanwhile."""
+"""The dispatcher calls the same handlers in the same order in both modes, also handlers registered later."""
 
 from perfect_channel import Case
 from watched_run import assert_same, trace_case
@@ -12,7 +12,7 @@ CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (0.0, 10.0, 0.0)], telemetry_int
 
 
 class Dispatching(Quiet):
-    """Handlers that stop every third event, come and go, and note the order in which they are called."""
+    """Handlers that stop every third event, register and unregister, and log the order of their calls."""
 
     def initialize(self) -> None:
         self.provider.tracked_variables["order"] = []

@@ -1,7 +1,7 @@
-"""The protocols of examples/ do the same in both modes on a perfect channel; ZigZag has a file of its own.
+"""The protocols of examples/ behave alike in both modes on a perfect channel; ZigZag has its own file.
 
-The scenarios are those of configs/reference and a few more, cut short, with a reach that some receivers are
-out of where there are any at a distance.
+The scenarios are those of configs/reference and a few more, shortened. If nodes are at a distance, the range
+excludes some receivers.
 """
 
 import ast
@@ -74,7 +74,7 @@ def scenario_of(name: str) -> Scenario:
 
 
 def both(name: str) -> Trace:
-    """Both modes agree; returns what happened."""
+    """Check that both modes agree; return the trace."""
     integrated, prototype = (trace_scenario(mode, scenario_of(name)) for mode in ("integrated", "prototype"))
     assert_same(integrated, prototype)
     return integrated
@@ -91,7 +91,7 @@ def test_every_reference_scenario_is_among_them() -> None:
     files = [
         file
         for file in (CONFIGS / "reference").glob("*.ini")
-        if "sim-time-limit" in file.read_text()  # the others are only there to be included
+        if "sim-time-limit" in file.read_text()  # other files are only included
     ]
     assert {f"reference/{file.stem}" for file in files} <= CASES.keys()
 

@@ -1,4 +1,4 @@
-"""The example configurations do what they did when tests/fingerprints/fingerprints.csv was written."""
+"""The example configurations have the fingerprints in tests/fingerprints/fingerprints.csv."""
 
 import sys
 from pathlib import Path

@@ -1,11 +1,11 @@
-"""Leaders and their followers are told the same, and do the same, in both modes.
+"""Leaders and followers behave alike in both modes.
 
-A leader's mission is driven by telemetry, so it flies alike in both modes. A follower gets a new target with
+Telemetry drives the mission of a leader, so it flies alike in both modes. A follower gets a new target with
 each broadcast of its leader, at random times between two updates of the prototype's positions. Its target is
-the same in both modes; where it is differs by two steps at most: the prototype's follower has flown to the
-old target up to one step too long, and is up to one step behind.
+the same in both modes. Its position differs by at most two steps: in the prototype it flies to the old target
+for up to one step too long, and is up to one step behind.
 
-No timer here is due at the time of an update: docs/decisions/0015-order-within-one-instant.md says why.
+No timer here is due at the time of an update: docs/decisions/0015-order-within-one-instant.md explains this.
 """
 
 from typing import ClassVar
@@ -45,7 +45,7 @@ def case(duration_s: float = 12.0) -> Case:
 
 
 class Leader(Quiet):
-    """Flies to and fro; the first one falls silent for a while, and turns round."""
+    """Flies back and forth; the first one is silent for a while, and turns around."""
 
     jitter: ClassVar[float] = 0.5
 
@@ -81,7 +81,7 @@ class Leader(Quiet):
 
 
 class Follower(Quiet):
-    """Keeps its place; notes whom it follows."""
+    """Keeps its position; logs its leader."""
 
     turns: ClassVar[bool] = True
     chooses: ClassVar[bool] = False
@@ -110,7 +110,7 @@ class Follower(Quiet):
 
 
 def fly(follower: type[Follower], leader: type[Leader] = Leader) -> Trace:
-    """Both modes agree; returns what happened."""
+    """Check that both modes agree; return the trace."""
     integrated, prototype = (
         trace_case(mode, case(), leader, leader, follower) for mode in ("integrated", "prototype")
     )

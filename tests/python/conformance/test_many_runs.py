@@ -1,4 +1,4 @@
-"""Integrated runs leave nothing behind, however many a process makes."""
+"""Integrated runs do not leak, for any number of runs in a process."""
 
 import gc
 import sys
@@ -31,7 +31,7 @@ alive: weakref.WeakSet[IProtocol] = weakref.WeakSet()
 
 
 class Chatty(IProtocol):
-    """Sends and sets timers to the end, so that both are pending then."""
+    """Sends and sets timers to the end, so that both are pending at the end."""
 
     def __init__(self) -> None:
         alive.add(self)
@@ -83,7 +83,7 @@ def nobody_hears(node: Node[Chatty]) -> bool:
 
 
 class Ticking(INodeHandler):
-    """Has an event pending from the moment it is injected, to the end."""
+    """Has a pending event from the injection to the end."""
 
     @staticmethod
     def get_label() -> str:
@@ -145,10 +145,10 @@ def test_no_object_of_python_is_kept_for_each_run(
         for _ in range(runs):
             make(scenario)
         gc.collect()
-        sys._clear_type_cache()  # it keeps up to 4,096 names of attributes, which ones is chance
+        sys._clear_type_cache()  # it keeps up to 4,096 attribute names, which are a matter of chance
         return sys.getallocatedblocks()
 
-    before = blocks_after(10)  # what is made once has been made by then
+    before = blocks_after(10)  # everything that is made once exists by then
     assert blocks_after(RUNS) - before < RUNS / 10
 
 

@@ -1,4 +1,4 @@
-"""How long messages take, in both modes: from the command to send until a protocol is told."""
+"""Delays of messages in both modes: from the send command to the callback of the receiver."""
 
 import pytest
 

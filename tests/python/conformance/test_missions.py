@@ -1,7 +1,7 @@
-"""A mission is flown alike in both modes, whatever follows its last waypoint, and a random trip too.
+"""A mission is flown alike in both modes, for all loop modes, and so is a random trip.
 
-Where a waypoint counts as reached at exactly the tolerance, the rounding of positions would decide: the
-waypoints here are at odd distances.
+If a waypoint counts as reached at exactly the tolerance, the rounding of positions decides. So the waypoints
+here are at odd distances.
 """
 
 from collections import Counter
@@ -26,7 +26,7 @@ WAYPOINTS = [(11.31, 2.17, 5.03), (4.77, 13.9, 8.21), (-6.13, 3.01, 2.29)]
 
 
 class OnMission(Quiet):
-    """Flies a mission, and interferes with it now and then."""
+    """Flies a mission, and changes it from time to time."""
 
     loop: ClassVar[LoopMission]
     interferes: ClassVar[bool] = False
@@ -81,14 +81,14 @@ class Tripping(Quiet):
 
 
 class Geographic(Quiet):
-    """Is sent to geographic coordinates."""
+    """Flies to geographic coordinates."""
 
     def initialize(self) -> None:
         self.provider.send_mobility_command(GotoGeoCoordsMobilityCommand(-0.00013, 0.00007, 21.0))
 
 
 def orders(*protocols: type[Quiet], case: Case = CASE) -> Counter[str]:
-    """Both modes agree; returns how often which order was given."""
+    """Check that both modes agree; return the number of commands of each kind."""
     integrated, prototype = (trace_case(mode, case, *protocols) for mode in ("integrated", "prototype"))
     assert_same(integrated, prototype)
     return Counter(integrated.names())

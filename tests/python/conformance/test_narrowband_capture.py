@@ -24,7 +24,7 @@ LINK_TYPE = 195
 
 @pytest.fixture(scope="module")
 def field(tmp_path_factory: pytest.TempPathFactory) -> tuple[RunResult, Path]:
-    """Twenty seconds of the sensor field, and the file of its ground station."""
+    """Return twenty seconds of the sensor field, and the file of its ground station."""
     file = tmp_path_factory.mktemp("captures") / "groundStation.pcap"
     (scenario,) = load_scenarios(INI, "Spread", overrides=["sim-time-limit = 20s"])
     run = IntegratedRun(scenario, {0: file})

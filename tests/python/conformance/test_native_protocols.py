@@ -1,7 +1,7 @@
-"""A native protocol does what its counterpart in Python does, to the last bit: runs have equal fingerprints.
+"""Native protocols behave exactly like their counterparts in Python: runs have equal fingerprints.
 
-The fingerprint holds the frames on the air, what became of them, and the packets and timers of all protocols
-with their texts.
+The fingerprint covers the frames on the air, their outcomes, and the packets and timers of all protocols with
+their content.
 """
 
 from functools import cache
@@ -54,7 +54,7 @@ PAIRS = {
         (ZIGZAG, "ZigZag15Synchronised", seconds(900)),
     ),
 }
-"""File, configuration and overrides of a run of native protocols, and of the same run of those in Python."""
+"""File, configuration and overrides of a run of native protocols, and of the same run in Python."""
 
 
 def scenario(file: str, config: str, *overrides: str, seed: int = 1) -> Scenario:
@@ -68,7 +68,7 @@ def result(file: str, config: str, *overrides: str, seed: int = 1) -> RunResult:
 
 
 def what_happened(result: RunResult) -> tuple[object, ...]:
-    """All but the names of protocols and the time that it took."""
+    """Return the result without names of protocols and run times."""
     return (
         result.fingerprint,
         result.events,

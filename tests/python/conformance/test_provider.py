@@ -1,4 +1,4 @@
-"""What a protocol is told and may ask for is the same in both modes."""
+"""Callbacks and queries of a protocol are the same in both modes."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -21,7 +21,7 @@ CALLBACKS = ["__init__", "initialize", "handle_timer", "handle_packet", "handle_
 
 
 class Failing(Quiet):
-    """Node 1 fails in one of its callbacks, in which the others do nothing."""
+    """Node 1 fails in one of its callbacks. The other nodes do nothing there."""
 
     failing: ClassVar[str]
     made: ClassVar[Iterator[int]]
@@ -73,7 +73,7 @@ class Dice(Quiet):
 
 
 class Variables(Quiet):
-    """Sets, overwrites, removes and replaces what it tracks."""
+    """Sets, overwrites, removes and replaces tracked variables."""
 
     def initialize(self) -> None:
         tracked = self.provider.tracked_variables
@@ -157,7 +157,7 @@ def test_timers_of_any_times_are_due_within_the_picosecond_that_the_engine_count
 
 
 class ToWhatEqualsOne(Quiet):
-    """Node 0 sends to node 1, in several ways to say that."""
+    """Node 0 sends to node 1, with several spellings of its id."""
 
     destinations: ClassVar[list[Any]] = [1, True, 1.0, np.int64(1), np.int16(1), np.float64(1), Fraction(1)]
     heard: ClassVar[list[int]]

@@ -1,4 +1,4 @@
-"""Nodes of Raft elect, agree, fail and recover alike in both modes."""
+"""Raft nodes elect, agree, fail and recover alike in both modes."""
 
 import re
 from typing import ClassVar
@@ -15,7 +15,7 @@ CASE = Case([(10.0 * node, 0.0, 0.0) for node in range(NODES)], range_m=100.0, s
 
 
 class Member(Quiet):
-    """Proposes when it leads; the leader of the third second fails, and comes back two seconds later."""
+    """Proposes as leader. The leader of the third second fails, and recovers two seconds later."""
 
     mode: ClassVar[RaftMode]
     told: ClassVar[bool]
@@ -65,7 +65,7 @@ class Member(Quiet):
 
 
 def agree(mode: RaftMode, *, told: bool) -> Trace:
-    """Both modes of the simulator agree; returns what happened."""
+    """Check that both modes of the simulator agree; return the trace."""
     member = type("Member", (Member,), {"mode": mode, "told": told})
     integrated, prototype = (trace_case(name, CASE, member) for name in ("integrated", "prototype"))
     assert_same(integrated, prototype)

@@ -1,4 +1,4 @@
-"""What is recorded of nodes over time: the same in both modes."""
+"""Vectors of nodes are the same in both modes."""
 
 import pytest
 
@@ -11,7 +11,7 @@ MODES = {"integrated": IntegratedRun, "prototype": PrototypeRun}
 
 @pytest.fixture(params=MODES)
 def new_run(request):
-    """Of a scenario, in one of the modes; not yet executed."""
+    """Return a function that makes a run of a scenario, in one of the modes, without executing it."""
     return MODES[request.param]
 
 

@@ -1,4 +1,4 @@
-"""What a run of a scenario is, and how it may end: the same in both modes."""
+"""Interface of a run, and the ways in which it may end: the same in both modes."""
 
 import random
 import traceback
@@ -27,7 +27,7 @@ def make_run(mode, make_scenario):
 
 @pytest.fixture
 def result_of(make_run):
-    """`result_of(python, *settings)`: of a run to its end."""
+    """`result_of(python, *settings)`: the result of a complete run."""
 
     def run(*scenario):
         made = make_run(*scenario)

@@ -1,7 +1,7 @@
 """On a perfect channel both modes call the same protocols with the same arguments at the same times.
 
-Of the order at equal times there are corners that the modes do not share, and these tests leave out: see
-docs/decisions/0015-order-within-one-instant.md.
+At equal times there are corner cases of the order that the modes do not share. These tests leave them out:
+see docs/decisions/0015-order-within-one-instant.md.
 """
 
 import math
@@ -23,7 +23,7 @@ networks = st.lists(st.tuples(coordinates, coordinates, coordinates), min_size=1
 
 
 def scripts(delays: st.SearchStrategy[int]) -> st.SearchStrategy[Script]:
-    """Protocols that do all there is, with timers so many ticks ahead."""
+    """Scripts with all actions, and timers that many ticks ahead."""
     actions = st.builds(Action, kind=st.sampled_from(KINDS), number=st.integers(0, 2), delay=delays)
     return st.lists(st.lists(actions, max_size=4), min_size=1, max_size=6)
 

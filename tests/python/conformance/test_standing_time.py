@@ -1,4 +1,4 @@
-"""A node that sets timers for now without end is told, in both modes alike, instead of a run that hangs."""
+"""A node that sets timers for now without end gets an exception in both modes; the run does not hang."""
 
 import re
 
@@ -11,7 +11,7 @@ from python.quiet_protocol import Quiet
 
 
 class Restless(Quiet):
-    """Node 0 sets one of its timers again at once."""
+    """Node 0 sets its timer again at once."""
 
     def initialize(self) -> None:
         if self.provider.get_id() == 0:
@@ -26,7 +26,7 @@ class Restless(Quiet):
 
 @pytest.mark.parametrize("mode", MODES)
 def test_the_run_ends_and_names_node_timer_and_time(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    # A million are seconds in prototype mode: there fewer are enough for the same words.
+    # A million timers take seconds in prototype mode: a smaller limit gives the same message.
     monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 1000)
     with pytest.raises(TimerException) as error:
         Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]).run(mode, Restless)

@@ -1,4 +1,4 @@
-"""Statistics have the same rows in both modes, but for the wall clock's time."""
+"""Statistics have the same rows in both modes, except for wall time."""
 
 import csv
 from pathlib import Path
@@ -16,7 +16,7 @@ Rows = list[list[str]]
 
 
 class Counting(Quiet):
-    """Tracks what it sends and hears."""
+    """Tracks sent and received messages."""
 
     def initialize(self) -> None:
         self.provider.tracked_variables["heard"] = 0
@@ -36,7 +36,7 @@ class Counting(Quiet):
 
 
 def files_of(folder: Path) -> dict[str, Rows]:
-    """The files that a run wrote there, without the wall clock's time."""
+    """Return the files that a run wrote there, without wall time."""
     files = {}
     for file in folder.iterdir():
         header, *rows = csv.reader(file.read_text().splitlines())

@@ -1,4 +1,4 @@
-"""A protocol may do with a telemetry what it likes: the next one is another."""
+"""A protocol may change its telemetry: the next one is a new object."""
 
 from typing import Any
 
@@ -12,7 +12,7 @@ from python.quiet_protocol import Quiet
 
 
 class Flying(Quiet):
-    """Flies along x, and writes down where."""
+    """Flies along x, and records its positions."""
 
     def initialize(self) -> None:
         self.places: list[Position] = []
@@ -27,7 +27,7 @@ class Flying(Quiet):
 
 
 class Blurring(Flying):
-    """Puts another place over the one that it is told, as a sensor with an error would."""
+    """Overwrites the received position, like a sensor with an error."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
         self.places.append(telemetry.current_position)
@@ -35,7 +35,7 @@ class Blurring(Flying):
 
 
 class Marking(Flying):
-    """Leaves a mark on every telemetry, and finds those left before."""
+    """Marks every telemetry, and looks for earlier marks."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
         super().handle_telemetry(telemetry)
@@ -44,7 +44,7 @@ class Marking(Flying):
 
 
 class Keeping(Flying):
-    """Keeps all telemetries to read them in the end."""
+    """Keeps all telemetry to read it at the end."""
 
     def initialize(self) -> None:
         super().initialize()
@@ -60,7 +60,7 @@ class Keeping(Flying):
 
 
 class KeepingFields(Flying):
-    """Keeps what is in all telemetries."""
+    """Keeps the content of all telemetry."""
 
     def initialize(self) -> None:
         super().initialize()
@@ -75,7 +75,7 @@ class KeepingFields(Flying):
 
 
 class Replacing(Flying):
-    """Gives every telemetry fields of another one."""
+    """Replaces the fields of each telemetry by those of another one."""
 
     def handle_telemetry(self, telemetry: Telemetry) -> None:
         super().handle_telemetry(telemetry)
@@ -83,7 +83,7 @@ class Replacing(Flying):
 
 
 class Looking(Flying):
-    """Looks places up by their hash."""
+    """Looks up positions by their hash."""
 
     def initialize(self) -> None:
         super().initialize()

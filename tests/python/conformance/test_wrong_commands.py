@@ -1,4 +1,4 @@
-"""An invalid call raises the same exception in both modes, with the same text."""
+"""An invalid call raises the same exception with the same message in both modes."""
 
 import math
 import re
@@ -61,7 +61,7 @@ AT_LEAST_0 = ">= 0"
 KIND = CommunicationCommandType.SEND
 SEND, STEER, TIMER = CommunicationException, MasslessMobilityException, TimerException
 
-TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, what its text has to name
+TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # action, exception, required parts of the message
     (send("hello"), SEND, ["'hello'", "CommunicationCommand"]),
     (send(None), SEND, ["None", "CommunicationCommand"]),
     (send(GotoCoordsMobilityCommand(1, 2, 3)), SEND, ["GOTO_COORDS", "a CommunicationCommand"]),
@@ -121,7 +121,7 @@ TABLE: list[tuple[Deed, type[Exception], list[str]]] = [  # deed, exception, wha
 
 
 def failure_of(mode: str, deed: Deed) -> Exception:
-    """What node 0 gets for it."""
+    """Return the exception that node 0 gets."""
 
     class Wrongdoer(Quiet):
         def initialize(self) -> None:
@@ -131,14 +131,14 @@ def failure_of(mode: str, deed: Deed) -> Exception:
         def handle_timer(self, timer: str) -> None:
             deed(self.provider)
 
-    with pytest.raises(Exception) as raised:  # noqa: PT011 (which one is what the tests ask)
+    with pytest.raises(Exception) as raised:  # noqa: PT011 (the tests check its type)
         CASE.run(mode, Wrongdoer)
     return raised.value
 
 
 @cache
 def refusal(mode: str, number: int) -> Exception:
-    """What node 0 gets for the deed in that row of the table."""
+    """Return the exception that node 0 gets for the action in that row of the table."""
     return failure_of(mode, TABLE[number][0])
 
 

@@ -1,18 +1,18 @@
-"""ZigZag with random delays on a perfect channel: while vehicles fly, both modes see the same.
+"""ZigZag with random delays on a perfect channel: while vehicles fly, both modes have the same events.
 
-Positions agree only nearly. The engine's vehicles move continuously. The prototype's take a step at each
-update of the positions (every 10 ms, so 0.1 m at 10 m/s) and stand still in between, and what a vehicle is
-ordered to do counts from the update after the order. So a vehicle is up to one step behind, and where it was
-turned around, it is up to two steps from where the engine has it, until it waits at its next waypoint. (A
-second turn takes the difference of the first one back.) Hence
+Positions agree only approximately. The engine's vehicles move continuously. The prototype's vehicles take a
+step at each update of the positions (every 10 ms, so 0.1 m at 10 m/s), and a command takes effect at the next
+update. So a vehicle is up to one step behind. After it turned around, it is up to two steps from its position
+in the engine, until it waits at its next waypoint. (A second turn cancels the difference of the first one.)
+Hence
 
 - a message between two vehicles over a distance within 2 * (1 + 2) steps of the range may arrive in one mode
   only, and both are right;
 - telemetry, which comes with an update, from a vehicle whose distance to a waypoint is within two steps of
   the mission's tolerance may say "there" in one mode only.
 
-Such an event is called marginal. The tests run ZigZag up to the first one, which has to be late enough, with
-exchanges between vehicles before it; up to there nothing may differ. Finer steps make marginal events
+Such an event is called marginal. The tests run ZigZag up to the first one, which must be late enough, with
+exchanges between vehicles before it. Up to there nothing may differ. Finer steps make marginal events
 rarer.
 """
 
@@ -61,7 +61,7 @@ Call = tuple[float, int, str, str]
 
 @dataclass
 class Recording:
-    """Timers, messages and commands of all nodes in their order, and how each node ended."""
+    """Timers, messages and commands of all nodes in order, and the final state of each node."""
 
     calls: list[Call] = field(default_factory=list)
     positions: list[Position] = field(default_factory=list)
@@ -89,7 +89,7 @@ def watched(
     on_send: Callable[[int, CommunicationCommand], None] = lambda sender, command: None,
     on_telemetry: Callable[[int], None] = lambda node: None,
 ) -> Scenario:
-    """The scenario with protocols that note what they are told and do, and tell of what may be marginal."""
+    """Return the scenario with protocols that log callbacks and commands, and report marginal events."""
 
     def note_calls(provider: IProvider, name: str) -> None:
         method = getattr(provider, name)
@@ -136,7 +136,7 @@ def watched(
 
 
 def first_marginal_s(scenario: Scenario, update_s: float) -> float:
-    """When the first marginal event is, or the end of the run."""
+    """Return the time of the first marginal event, or the end of the run."""
     step_m = SPEED_MPS * update_s
     times = [scenario.sim_time_limit_s]
 
@@ -198,7 +198,7 @@ def fly_prototype(scenario: Scenario, update_s: float) -> Recording:
 
 @cache
 def both(config: str, seed: int, update_s: float, least_s: float) -> tuple[Recording, Recording]:
-    """Both modes up to shortly before the first marginal event."""
+    """Run both modes up to shortly before the first marginal event."""
     end_s = first_marginal_s(load(config, seed, 2 * least_s), update_s)
     assert end_s > least_s, f"a marginal event at {end_s} s: choose another seed"
     scenario = load(config, seed, math.ceil(end_s) - 1)

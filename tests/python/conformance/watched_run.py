@@ -1,17 +1,18 @@
-"""All that happens to protocols, in order, so that it can be compared between the modes.
+"""Trace of all events at protocols, in order, for a comparison between the modes.
 
-The traces of two modes agree if the same nodes are called with the same arguments and give the same commands,
-in one order for all nodes, at the same times, and track the same variables to the end.
+The traces of two modes agree if the same nodes have the same callbacks with the same arguments, in one order
+for all nodes. They must also send the same commands at the same times, and track the same variables to the
+end.
 
-Two roundings are allowed for, everywhere. Times: the engine counts in picoseconds, so each timer that is set
-relative to the one before may add half of one. Coordinates, also within
-messages and variables: the prototype adds up one step for each update of the positions, where the engine has
-a formula; after some thousand steps the two are some 10^-12 m apart.
+Two kinds of rounding are allowed everywhere. Times: the engine counts in picoseconds, so each timer relative
+to the one before may add half of one. Coordinates, also within messages and variables: the prototype adds up
+one step per update of the positions, and the engine has a formula. After some thousand steps the two differ
+by some 10^-12 m.
 
-So that nothing more than that differs when nodes move, orders to vehicles have to be given when a position
-has just been updated, which is when telemetry comes. In between the two modes differ by up to one step: the
-prototype's vehicles obey from the update after the order on, the engine's at once. The numbers of a node that
-does get orders in between are compared with a tolerance of some steps, which its test gives a reason for.
+To avoid further differences when nodes move, commands to vehicles must be sent just after an update of the
+positions, which is the time of telemetry. Otherwise the two modes differ by up to one step: the prototype's
+vehicles obey at the next update, the engine's at once. The numbers of a node that gets commands between
+updates are compared with a tolerance of some steps, for which its test gives a reason.
 """
 
 import re
@@ -40,7 +41,7 @@ _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
 class Entry(NamedTuple):
-    """A callback or a command: when, of which node, its name and its arguments as they print."""
+    """A callback or a command: time, node, name, and arguments as strings."""
 
     time_s: float
     node: int
@@ -53,9 +54,9 @@ class Trace:
     """One run.
 
     Attributes:
-        entries: What happened.
-        tracked: The variables of each node at the end.
-        positions: Where each node ended, in meters.
+        entries: Callbacks and commands.
+        tracked: Variables of each node at the end.
+        positions: Final position of each node, in meters.
     """
 
     entries: list[Entry] = field(default_factory=list)
@@ -63,17 +64,17 @@ class Trace:
     positions: list[Position] = field(default_factory=list)
 
     def names(self, node: int | None = None) -> list[str]:
-        """The names of the entries, of one node or of all."""
+        """Return the names of the entries, of one node or of all."""
         return [entry.name for entry in self.entries if node in (None, entry.node)]
 
 
 def trace_case(mode: str, case: Case, *protocols: type[IProtocol]) -> Trace:
-    """Run the case in one mode and watch."""
+    """Run the case in one mode and return its trace."""
     return trace_scenario(mode, case.scenario(*protocols))
 
 
 def trace_scenario(mode: str, scenario: Scenario) -> Trace:
-    """Run the scenario in one mode and watch."""
+    """Run the scenario in one mode and return its trace."""
     trace = Trace()
     classes = {spec.protocol: _watched(spec.protocol, trace.entries) for spec in scenario.nodes}
     nodes = tuple(replace(spec, protocol=classes[spec.protocol]) for spec in scenario.nodes)
@@ -84,7 +85,7 @@ def trace_scenario(mode: str, scenario: Scenario) -> Trace:
 
 
 def assert_same(integrated: Trace, prototype: Trace, tolerance_m: Mapping[int, float] | None = None) -> None:
-    """Two traces agree; `tolerance_m` says for some nodes by how much their numbers may differ."""
+    """Check that two traces agree; `tolerance_m` is the tolerance for the numbers of some nodes."""
     tolerance_m = tolerance_m or {}
     for index, (entry, expected) in enumerate(zip_longest(integrated.entries, prototype.entries)):
         if entry != expected and not _agree(entry, expected, tolerance_m):
@@ -110,7 +111,7 @@ def _agree(entry: Entry | None, expected: Entry | None, tolerance_m: Mapping[int
 
 
 def _near(text: str, expected: str, tolerance: float) -> bool:
-    """Whether two texts are the same but for their numbers, which hardly differ."""
+    """Return whether two strings are the same except for small differences of their numbers."""
     return _NUMBER.sub("0", text) == _NUMBER.sub("0", expected) and all(
         abs(number - other) <= tolerance
         for number, other in zip(_numbers(text), _numbers(expected), strict=True)
@@ -122,7 +123,7 @@ def _numbers(text: str) -> Sequence[float]:
 
 
 def _watched(protocol: type[IProtocol], entries: list[Entry]) -> type[IProtocol]:
-    """The protocol, outside of all its plugins; of the same name, which statistics use."""
+    """Return the protocol with a trace outside of its plugins, with the same name, which statistics use."""
 
     class Watched(protocol):  # type: ignore[misc, valid-type]
         entries_: ClassVar[list[Entry]] = entries
@@ -142,7 +143,7 @@ def _watched(protocol: type[IProtocol], entries: list[Entry]) -> type[IProtocol]
 
 
 def _watch(target: Any, methods: Sequence[str], provider: IProvider, entries: list[Entry]) -> None:
-    """Note the calls of these methods, each before it is carried out."""
+    """Log the calls of these methods, each before it is executed."""
 
     def watch(name: str, method: Callable[..., None]) -> Callable[..., None]:
         def noted(*arguments: Any) -> None:

@@ -1,4 +1,4 @@
-"""Where the project lies, which files belong to it, and what its documents show."""
+"""The project's directory, its files, and the snippets of its documents."""
 
 import importlib
 import os
@@ -16,7 +16,7 @@ _ROOT = Path(__file__).parents[3]
 
 @pytest.fixture(scope="session")
 def root() -> Path:
-    """The project's folder."""
+    """The project's directory."""
     return _ROOT
 
 
@@ -56,7 +56,7 @@ def code_blocks(root: Path) -> Callable[[str, str], list[str]]:
 
 @pytest.fixture
 def imported(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Path], Any]]:
-    """`imported(file)`: a document's script as a module; afterwards it and those beside it are forgotten."""
+    """`imported(file)`: a document's script as a module; afterwards it and its neighbors are forgotten."""
     folders: set[Path] = set()
 
     def load(file: Path) -> Any:
@@ -72,7 +72,7 @@ def imported(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[[Path], Any]]
 
 @pytest.fixture
 def shell(root: Path, tmp_path: Path) -> Callable[[str, Path], str]:
-    """`shell(commands, folder)`: what commands print that run there, with the project's `gradysim`."""
+    """`shell(commands, folder)`: output of commands that run there, with the project's `gradysim`."""
     pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
     program = tmp_path / "bin" / "gradysim"
     program.parent.mkdir()
@@ -96,7 +96,7 @@ def shell(root: Path, tmp_path: Path) -> Callable[[str, Path], str]:
 
 @pytest.fixture
 def swarm(shell: Callable[[str, Path], str], tmp_path: Path) -> Path:
-    """A folder with `swarm`, the project with which several guides begin; it is made by `gradysim new`."""
+    """Return a directory with `swarm`, the project of several guides, made by `gradysim new`."""
     shell("gradysim new swarm", tmp_path)
     return tmp_path
 

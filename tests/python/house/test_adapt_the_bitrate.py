@@ -1,4 +1,4 @@
-"""What docs/how-to/adapt-the-bitrate.md shows runs, and its nodes use several rates."""
+"""The commands of docs/how-to/adapt-the-bitrate.md run, and its nodes use several rates."""
 
 import json
 import os
@@ -23,7 +23,7 @@ def guide(root: Path) -> str:
 
 @pytest.fixture
 def scenario_file(guide: str, tmp_path: Path) -> Path:
-    """The .ini file of a reader who saved the guide's two files."""
+    """Return the .ini file of a reader who saved the guide's two files."""
     for language, name in [("python", "rates.py"), ("ini", "rates.ini")]:
         (block,) = re.findall(rf"^```{language}\n(.*?)^```", guide, re.MULTILINE | re.DOTALL)
         (tmp_path / name).write_text(block, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What docs/how-to/build-a-network-in-python.md shows is what happens."""
+"""The output in docs/how-to/build-a-network-in-python.md is correct."""
 
 import re
 from collections.abc import Callable
@@ -16,7 +16,10 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.fixture
 def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder with the page's files, as a reader would save them; it is the working directory."""
+    """Return the directory with the page's files, as a reader would save them.
+
+    It is the working directory.
+    """
     for language, name in [("ini", "radios.ini"), ("python", "network.py")]:
         (block,) = code_blocks(PAGE, language)
         (tmp_path / name).write_text(block)
@@ -26,7 +29,7 @@ def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 @pytest.fixture
 def network(folder: Path, imported: Callable[[Path], Any]) -> Any:
-    """The page's script, imported."""
+    """Import the page's script."""
     return imported(folder / "network.py")
 
 
@@ -42,7 +45,7 @@ def test_its_call_gives_what_the_page_says(network: Any, root: Path) -> None:
 
 def test_classes_that_a_function_makes_run_in_both_modes(network: Any) -> None:
     class Farther(network.Listener):  # type: ignore[name-defined, misc]
-        """One that a function makes."""
+        """A class made by a function."""
 
     for result in network.in_both_modes([(network.Greeter, (0, 0, 0)), (Farther, (40, 0, 10))]):
         assert [node.protocol for node in result.nodes] == ["Greeter", "Farther"]

@@ -1,4 +1,4 @@
-"""What docs/how-to/calibrate-a-range.md shows is what the command prints."""
+"""The output in docs/how-to/calibrate-a-range.md is the output of the command."""
 
 import re
 import sys

@@ -1,4 +1,4 @@
-"""What docs/how-to/capture-frames.md shows is what happens."""
+"""The output in docs/how-to/capture-frames.md is correct."""
 
 import os
 import re
@@ -22,7 +22,7 @@ def guide(root: Path) -> str:
 
 @pytest.fixture
 def folder(guide: str, tmp_path: Path) -> Path:
-    """The folder of a reader who saved the guide's two files and ran its command."""
+    """Return the directory of a reader who saved the guide's two files and ran its command."""
     for language, name in [("python", "capture.py"), ("ini", "capture.ini")]:
         (tmp_path / name).write_text(blocks(guide, language)[0])
     program, *arguments = shlex.split(blocks(guide, "sh")[0])

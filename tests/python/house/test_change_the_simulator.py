@@ -1,4 +1,4 @@
-"""What docs/contributing/change-the-simulator.md names is there."""
+"""The files and names in docs/contributing/change-the-simulator.md exist."""
 
 import re
 from pathlib import Path

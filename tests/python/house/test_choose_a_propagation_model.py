@@ -1,4 +1,4 @@
-"""The engine takes the lines that docs/how-to/choose-a-propagation-model.md shows."""
+"""The engine accepts the lines in docs/how-to/choose-a-propagation-model.md."""
 
 import re
 from collections.abc import Callable

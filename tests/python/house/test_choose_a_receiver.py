@@ -1,4 +1,4 @@
-"""What docs/how-to/choose-a-receiver.md shows is understood, file and lines."""
+"""The file and the lines in docs/how-to/choose-a-receiver.md are valid."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What docs/how-to/compute-means.md shows is what the command prints, and what scripts compute."""
+"""The output in docs/how-to/compute-means.md is the output of the command and of the scripts."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +17,7 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.fixture
 def study(code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path) -> Path:
-    """A folder with the results of its study."""
+    """Return a directory with the results of its study."""
     shell("\n".join(code_blocks(GUIDE, "sh")[0].splitlines()[:2]), tmp_path)
     return tmp_path
 

@@ -1,4 +1,4 @@
-"""What docs/explanation/determinism.md shows is what the commands print."""
+"""The output in docs/explanation/determinism.md is the output of the commands."""
 
 from collections.abc import Callable
 from pathlib import Path

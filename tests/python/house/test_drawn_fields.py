@@ -1,4 +1,4 @@
-"""Fields that tests of the engine draw at random. Without that, a field is tried with its default only."""
+"""Fields that tests of the engine draw at random. Other fields are tested with their default only."""
 
 import re
 from pathlib import Path
@@ -9,7 +9,7 @@ SUPPORT = Path("tests/cpp/support")
 
 
 def test_bounds_of_path_losses_are_tried_with_other_values_than_the_defaults(root: Path) -> None:
-    other = {"path_loss", "coherence_time_s"}  # which one it is, and how long its fading lasts
+    other = {"path_loss", "coherence_time_s"}  # the model, and the coherence time of its fading
     fields = {key.field for key in PATH_LOSS_KEYS} - other
     words = re.findall(r"\w+", (root / SUPPORT / "drawn_path_loss.hpp").read_text(encoding="utf-8"))
     assert fields - set(words) == set()

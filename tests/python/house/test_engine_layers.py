@@ -1,4 +1,4 @@
-"""The engine knows no Python, and its includes go one way."""
+"""The engine does not depend on Python, and its includes go one way."""
 
 import re
 from collections.abc import Callable
@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 ENGINE = Path("cpp/netsim")
-# From the bottom up: a folder includes its own files and those of the folders before it. "" is the engine's
-# root (units.hpp, error.hpp, interface_id.hpp).
+# From the bottom up: a directory includes its own files and those of the directories before it. "" is the
+# engine's root (units.hpp, error.hpp, interface_id.hpp).
 LAYERS = [
     "",
     "kernel",
@@ -35,13 +35,13 @@ def engine_files(project_files: ProjectFiles) -> list[Path]:
 
 
 def layer(file: Path) -> str:
-    """The folder of a file of the engine: "mac" for cpp/netsim/mac/dcf.hpp, "" for cpp/netsim/units.hpp."""
+    """Return the directory of a file: "mac" for cpp/netsim/mac/dcf.hpp, "" for cpp/netsim/units.hpp."""
     parent = file.relative_to(ENGINE).parent
     return "" if parent == Path(".") else parent.parts[0]
 
 
 def includes(file: Path) -> list[tuple[str, str]]:
-    """(opening quote, path) of each include of the file."""
+    """Return (opening quote, path) of each include of the file."""
     return INCLUDE.findall(file.read_text())
 
 

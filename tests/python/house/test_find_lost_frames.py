@@ -1,4 +1,4 @@
-"""What docs/how-to/find-lost-frames.md shows is what the command prints."""
+"""The output in docs/how-to/find-lost-frames.md is the output of the command."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What docs/how-to/fly-with-ardupilot.md shows is what happens."""
+"""The output in docs/how-to/fly-with-ardupilot.md is correct."""
 
 import shlex
 from collections.abc import Callable
@@ -20,7 +20,10 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.fixture
 def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder with the guide's script, as a reader would save it; it is the working directory."""
+    """Return the directory with the guide's script, as a reader would save it.
+
+    It is the working directory.
+    """
     (tmp_path / "patrol.py").write_text("\n\n".join(code_blocks(PAGE, "python")))
     monkeypatch.chdir(tmp_path)
     return tmp_path

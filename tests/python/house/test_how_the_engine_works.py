@@ -1,4 +1,4 @@
-"""What docs/explanation/how-the-engine-works.md and its drawings say is what runs show."""
+"""The text and drawings of docs/explanation/how-the-engine-works.md agree with runs."""
 
 import importlib.util
 import re

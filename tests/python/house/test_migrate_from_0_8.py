@@ -1,4 +1,4 @@
-"""What docs/how-to/migrate-from-0.8.md shows is what happens."""
+"""The output in docs/how-to/migrate-from-0.8.md is correct."""
 
 import importlib
 import re
@@ -20,7 +20,7 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 
 def translations() -> list[tuple[str, str]]:
-    """The rows of the table of keys: a line of an omnetpp.ini, and what becomes of it."""
+    """Return the rows of the table of keys: a line of an omnetpp.ini, and its translation."""
     text = (Path(__file__).parents[3] / PAGE).read_text()
     table = text.split("| in `omnetpp.ini` | here |\n|---|---|\n")[1].split("\n\n")[0]
     rows = [re.fullmatch(r"\| `(.+?)` \| (?:`(.+)`|delete.*?) \|", line) for line in table.splitlines()]
@@ -29,7 +29,10 @@ def translations() -> list[tuple[str, str]]:
 
 @pytest.fixture
 def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder with the page's files, as a reader would save them; it is the working directory."""
+    """Return the directory with the page's files, as a reader would save them.
+
+    It is the working directory.
+    """
     (survey,) = code_blocks(PAGE, "ini")
     (tmp_path / "survey.ini").write_text(survey)
     for language, name in [("python", "survey.py"), ("text", "omnetpp.ini")]:
@@ -40,12 +43,12 @@ def folder(code_blocks: CodeBlocks, tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 @pytest.fixture
 def survey(folder: Path, imported: Callable[[Path], Any]) -> Any:
-    """The page's Python file, imported."""
+    """Import the page's Python file."""
     return imported(folder / "survey.py")
 
 
 def with_lines(folder: Path, *lines: str) -> Path:
-    """The page's .ini file with more lines, which take precedence."""
+    """Return the page's .ini file with additional lines, which take precedence."""
     file = folder / "changed.ini"
     file.write_text(
         (folder / "survey.ini").read_text().replace("[General]", "\n".join(("[General]", *lines)), 1)

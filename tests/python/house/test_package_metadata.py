@@ -1,4 +1,4 @@
-"""What the distribution says of itself."""
+"""Metadata of the distribution."""
 
 import re
 import shutil

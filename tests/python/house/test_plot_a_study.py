@@ -19,7 +19,7 @@ Shell = Callable[[str, Path], str]
 
 @pytest.fixture
 def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
-    """The functions that it defines."""
+    """Return the functions defined on the page."""
     names: dict[str, Any] = {}
     exec("\n".join(code_blocks(GUIDE, "python")), names)
     return names

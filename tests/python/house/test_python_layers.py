@@ -1,4 +1,4 @@
-"""The imports of the Python packages go one way, and only integrated mode knows the compiled engine."""
+"""The imports of the Python packages go one way, and only integrated mode imports the compiled engine."""
 
 import ast
 import os
@@ -13,7 +13,7 @@ PACKAGE = Path("python/gradysim")
 
 
 def test_import_contracts_hold(root: Path) -> None:
-    """The contracts stand in pyproject.toml, [tool.importlinter]."""
+    """The contracts are in pyproject.toml, [tool.importlinter]."""
     outcome = subprocess.run(
         [Path(sys.executable).with_name("lint-imports"), "--no-cache", "--no-logo"],
         cwd=root,
@@ -26,7 +26,7 @@ def test_import_contracts_hold(root: Path) -> None:
 
 
 def imports_at_run_time(tree: ast.AST) -> Iterator[str]:
-    """The modules and names that a source imports, `if TYPE_CHECKING:` left out."""
+    """Yield the modules and names that a source imports, except in `if TYPE_CHECKING:`."""
     for node in ast.iter_child_nodes(tree):
         if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING"):
             continue

@@ -1,4 +1,4 @@
-"""What docs/how-to/read-results.md shows is what happens."""
+"""The output in docs/how-to/read-results.md is correct."""
 
 import json
 from collections.abc import Callable
@@ -16,7 +16,7 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.fixture
 def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
-    """The functions that it defines."""
+    """Return the functions defined on the page."""
     names: dict[str, Any] = {}
     exec("\n".join(code_blocks(GUIDE, "python")), names)
     return names

@@ -1,4 +1,4 @@
-"""What README.md shows to a newcomer is what happens."""
+"""The output in README.md is correct."""
 
 import json
 import re
@@ -17,7 +17,7 @@ README = Path(__file__).parents[3] / "README.md"
 
 @pytest.fixture
 def first_protocol(root: Path, tmp_path: Path) -> Path:
-    """The two files of the first protocol, as a reader would save them; returns the .ini file."""
+    """Save the two files of the first protocol, like a reader; return the .ini file."""
     readme = (root / "README.md").read_text()
     for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
         block = re.search(rf"^```{language}\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)
@@ -27,7 +27,7 @@ def first_protocol(root: Path, tmp_path: Path) -> Path:
 
 
 def heard(run: Callable[..., Any], file: Path, config: str) -> list[int]:
-    """How many greetings each node heard."""
+    """Return the number of greetings that each node heard."""
     result = run(load_scenarios(file, config)[0])
     return [node.tracked_variables["heard"] for node in result.nodes]
 

@@ -1,4 +1,4 @@
-"""The figures of docs/explanation/realism-levels.md are those of the guide that measures them."""
+"""The figures of docs/explanation/realism-levels.md agree with the guide that measures them."""
 
 import re
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""docs/reference/keys.md is what the command prints."""
+"""docs/reference/keys.md is the output of the command."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The lines of docs/reference/studies.md make the runs that it says."""
+"""The lines in docs/reference/studies.md give the runs on the page."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What docs/reference/values.md shows runs with the README's first protocol, and its tables are complete."""
+"""The values in docs/reference/values.md work with the README's first protocol; its tables are complete."""
 
 import re
 from collections.abc import Callable
@@ -22,7 +22,7 @@ GUIDE = "docs/reference/values.md"
 def scenarios(
     code_blocks: Callable[[str, str], list[str]], tmp_path: Path
 ) -> Callable[[str], list[Scenario]]:
-    """Loads a configuration of the README's first file with those of this page."""
+    """Load a configuration of the README's first file with additional configurations of this page."""
     (tmp_path / "hello.py").write_text(code_blocks("README.md", "python")[0], encoding="utf-8")
     text = [code_blocks("README.md", "ini")[0], *code_blocks(GUIDE, "ini")]
     (tmp_path / "hello.ini").write_text("\n".join(text), encoding="utf-8")

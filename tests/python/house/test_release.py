@@ -1,4 +1,4 @@
-"""What `make release` checks and writes, in a clone of this repository."""
+"""Checks and output of `make release`, in a clone of this repository."""
 
 import os
 import re

@@ -1,6 +1,6 @@
-"""The commands of docs/how-to/repeat-the-paper.md run, and what it says came out comes out.
+"""The commands of docs/how-to/repeat-the-paper.md run and give its results.
 
-Of the figures of ten runs of each size, those of the smallest one in integrated mode are made anew here.
+Of the figures of ten runs of each size, only those of the smallest size in integrated mode are computed here.
 """
 
 import json
@@ -31,14 +31,14 @@ def text(root: Path) -> str:
 
 @pytest.fixture
 def commands(code_blocks: Callable[[str, str], list[str]]) -> list[str]:
-    """Each command of the page, in its order."""
+    """Return the commands of the page, in order."""
     return [
         command for block in code_blocks(GUIDE, "sh") for command in block.replace("\\\n", "").splitlines()
     ]
 
 
 def readings(root: Path, config: str, *overrides: str) -> list[int]:
-    """What the ground station has at the end of each run in integrated mode."""
+    """Return the readings at the ground station at the end of each run in integrated mode."""
     counts = []
     for scenario in load_scenarios(root / "configs/zigzag.ini", config, overrides=overrides):
         count: Any = run(scenario).nodes[-1].tracked_variables["data"]

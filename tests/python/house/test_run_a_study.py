@@ -1,4 +1,4 @@
-"""What docs/how-to/run-a-study.md shows is what the commands print."""
+"""The output in docs/how-to/run-a-study.md is the output of the commands."""
 
 import re
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""What docs/how-to/run-in-a-script.md shows is what happens."""
+"""The output in docs/how-to/run-in-a-script.md is correct."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +17,7 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.fixture
 def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
-    """The functions that it defines."""
+    """Return the functions defined on the page."""
     names: dict[str, Any] = {}
     exec("\n".join(code_blocks(GUIDE, "python")), names)
     return names

@@ -1,4 +1,4 @@
-"""Every snippet in Python of the documents runs, and each document with snippets has a test of its own."""
+"""Every Python snippet of the documents runs, and each document with snippets has its own test."""
 
 import os
 import re
@@ -20,10 +20,10 @@ SAVED_AS = {
         "write-a-handler",
     )
 }
-"""Documents whose second snippet is a file of its own, which the others import."""
+"""Documents whose second snippet is a file that the others import."""
 
 NEEDS_AN_AUTOPILOT = {"docs/how-to/fly-with-ardupilot.md"}
-"""Documents whose main program flies an autopilot: here only what it defines is run.
+"""Documents whose main program flies an autopilot. Only their definitions run here.
 
 tests/python/house/test_fly_with_ardupilot.py flies it with a toy. tests/python/sitl/test_real_autopilot.py
 flies with real ones.
@@ -34,25 +34,25 @@ DOCUMENTS = [*sorted(_ROOT.glob("*.md")), *sorted((_ROOT / "docs").rglob("*.md")
 
 
 def snippets() -> list[tuple[str, int]]:
-    """The document and the number of each snippet in Python."""
+    """Return the document and the number of each Python snippet."""
     return [
         (str(file.relative_to(_ROOT)), number) for file in DOCUMENTS for number in range(len(programs(file)))
     ]
 
 
 def programs(document: Path) -> list[str]:
-    """The snippets in Python of a document."""
+    """Return the Python snippets of a document."""
     return re.findall(r"^```python\n(.*?)^```", document.read_text(), re.MULTILINE | re.DOTALL)
 
 
 def languages(document: Path) -> set[str]:
-    """The languages of the document's snippets that can be run."""
+    """Return the languages of the document's snippets that can run."""
     found = re.findall(r"^ *```(\w+)$", document.read_text(), re.MULTILINE)
     return {language for language in found if language in ("python", "ini", "sh", "bash", "console")}
 
 
 def is_test(file: Path) -> bool:
-    """Whether it may be a document's own test, which this one is not."""
+    """Return whether it may be a document's own test, unlike this file."""
     return file.name.startswith("test_") and file.name != Path(__file__).name
 
 
@@ -73,7 +73,7 @@ def test_a_test_runs_them(root: Path, project_files: Callable[..., list[Path]]) 
 
 @pytest.mark.parametrize(("document", "number"), snippets())
 def test_a_snippet_runs(document: str, number: int, tmp_path: Path) -> None:
-    """After those before it on the page, as a reader would put them together in one file."""
+    """The snippet runs after those before it on the page, as in one file."""
     texts = programs(_ROOT / document)
     if document in SAVED_AS:
         (tmp_path / f"{SAVED_AS[document]}.py").write_text(texts.pop(1))
@@ -93,6 +93,6 @@ def test_a_snippet_runs(document: str, number: int, tmp_path: Path) -> None:
 
 
 def test_all_snippets_are_found() -> None:
-    """Those that are indented, or whose language is written in another way, would be passed over."""
+    """Indented snippets, or those with another spelling of the language, would be skipped."""
     text = "".join(file.read_text() for file in DOCUMENTS)
     assert len(re.findall(r"```\s*py", text, re.IGNORECASE)) == len(snippets())

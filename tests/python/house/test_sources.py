@@ -6,13 +6,13 @@ from pathlib import Path
 
 ProjectFiles = Callable[..., list[Path]]
 
-# A folder of somebody's machine; the home of the container's user and of nobody in particular are not meant.
+# Directory of one machine, except home directories of the container's user and of the examples.
 MACHINE_PATH = re.compile(r"(?<![\w.~/}*)-])/(?:work|root|Users|mnt|home/(?!(?:gradysim|user)\b)\w+)/\w")
 VAGUE_NAMES = {"utils", "util", "helpers", "helper", "common", "misc"}
 
 
 def text_of(file: Path) -> str:
-    """The text of the file, empty for one that holds no text."""
+    """Return the text of the file; empty for a binary file."""
     try:
         return file.read_text()
     except UnicodeDecodeError:

@@ -1,4 +1,4 @@
-"""What docs/how-to/stop-and-resume.md shows is what the commands print."""
+"""The output in docs/how-to/stop-and-resume.md is the output of the commands."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What docs/how-to/trace-a-node.md shows is what the command prints."""
+"""The output in docs/how-to/trace-a-node.md is the output of the command."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What docs/how-to/use-omnetpp-tools.md says of files and names is so."""
+"""Files and names in docs/how-to/use-omnetpp-tools.md are correct."""
 
 import re
 from collections.abc import Callable
@@ -22,7 +22,7 @@ Shell = Callable[[str, Path], str]
 
 @pytest.fixture
 def folder(code_blocks: CodeBlocks, tmp_path: Path) -> Path:
-    """The folder of a reader who has the README's first protocol and its study."""
+    """Return the directory of a reader with the README's first protocol and its study."""
     (tmp_path / "hello.py").write_text(code_blocks("README.md", "python")[0], encoding="utf-8")
     text = "".join([*code_blocks("README.md", "ini")[:2], *code_blocks(GUIDE, "ini")])
     (tmp_path / "hello.ini").write_text(text, encoding="utf-8")
@@ -31,7 +31,7 @@ def folder(code_blocks: CodeBlocks, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
-    """The functions that it defines."""
+    """Return the functions defined on the page."""
     names: dict[str, Any] = {}
     exec("\n".join(code_blocks(GUIDE, "python")), names)
     return names

@@ -19,7 +19,7 @@ BUILD = "from scikit_build_core.build import build_sdist; print(build_sdist('dis
 
 @pytest.fixture
 def sources(root: Path, tmp_path: Path) -> Path:
-    """Return what decides on the version, without git."""
+    """Return the files that determine the version, without git."""
     pytest.importorskip("scikit_build_core")
     directory = tmp_path / "sources"
     (directory / "cpp").mkdir(parents=True)

@@ -1,4 +1,4 @@
-"""What docs/how-to/watch-a-run.md shows is what happens."""
+"""The output in docs/how-to/watch-a-run.md is correct."""
 
 import re
 from collections.abc import Callable
@@ -19,7 +19,7 @@ def text(root: Path) -> str:
 
 @pytest.fixture
 def folder(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with the first protocol of the README; it is the working directory."""
+    """Return a directory with the first protocol of the README. It is the working directory."""
     readme = (root / "README.md").read_text()
     for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
         (tmp_path / name).write_text(

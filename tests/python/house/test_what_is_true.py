@@ -1,4 +1,4 @@
-"""The figures of docs/explanation/what-is-true.md are those of the verification."""
+"""The figures of docs/explanation/what-is-true.md agree with the verification."""
 
 import re
 from pathlib import Path

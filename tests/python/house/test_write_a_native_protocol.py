@@ -1,4 +1,4 @@
-"""docs/how-to/write-a-native-protocol.md is true; its program in C++ is one of the C++ tests."""
+"""docs/how-to/write-a-native-protocol.md is correct; its C++ program is one of the C++ tests."""
 
 import re
 from collections.abc import Callable
