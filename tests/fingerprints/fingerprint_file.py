@@ -1,4 +1,4 @@
-"""Fingerprints of the example configurations: what is run for each, and the file that keeps them."""
+"""Fingerprints of the example configurations: their runs, and the file of fingerprints."""
 
 import csv
 from collections.abc import Iterable, Iterator
@@ -17,7 +17,7 @@ SIM_TIME_LIMIT = "600s"
 
 
 class Example(NamedTuple):
-    """One run: a configuration, its seed and how long it is simulated (a quantity of an .ini file)."""
+    """One run: a configuration, its seed and its duration (a quantity of an .ini file)."""
 
     file: str
     config: str
@@ -42,7 +42,7 @@ def examples() -> Iterator[Example]:
 
 
 def read() -> dict[Example, str]:
-    """Return the fingerprints that are kept."""
+    """Return the stored fingerprints."""
     with KEPT.open(encoding="utf-8", newline="") as lines:
         return {
             Example(row["file"], row["config"], int(row["seed"]), row["sim_time_limit"]): row["fingerprint"]
@@ -51,7 +51,7 @@ def read() -> dict[Example, str]:
 
 
 def write(fingerprints: Iterable[tuple[Example, str]]) -> None:
-    """Keep these fingerprints instead of the present ones."""
+    """Store these fingerprints instead of the present ones."""
     with KEPT.open("w", encoding="utf-8", newline="") as lines:
         writer = csv.writer(lines, lineterminator="\n")
         writer.writerow([*Example._fields, "fingerprint"])

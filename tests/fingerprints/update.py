@@ -1,16 +1,16 @@
-"""Rewrites fingerprints.csv from what the engine does now, and says what has changed: `make fingerprints`.
+"""Rewrite fingerprints.csv and print what has changed: `make fingerprints`.
 
-A fingerprint is a hash of everything that happened on the air and in the protocols. When one changes, a user
-who repeats a run gets other results. So rewriting is legitimate only if that is meant:
+A fingerprint is a hash of all events on the air and in the protocols. When one changes, a user who repeats a
+run gets other results. So rewriting is legitimate only if the change is intended:
 
 - the model or its default values were changed or corrected, and CHANGELOG.md says so under "Changed" or
   "Fixed";
 - an example (configs/, examples/) was changed, added or removed;
-- what goes into the fingerprint was changed.
+- the content of the fingerprint was changed.
 
-It is not legitimate to make a test pass after a change that was to have no effect: a refactoring, something
-made faster, other tools, another machine. Then the test has found a mistake. Commit the rewritten file
-together with its cause, and name the cause in the message.
+It is not legitimate to make a test pass after a change without an intended effect: a refactoring, an
+optimization, other tools, another machine. Then the test has found a bug. Commit the rewritten file together
+with the cause of the change, and name the cause in the message.
 """
 
 import fingerprint_file

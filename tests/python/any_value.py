@@ -1,4 +1,4 @@
-"""Whatever a protocol may put into its tracked variables, for tests of what becomes of it."""
+"""Any value that a protocol may put into its tracked variables, for property tests."""
 
 from hypothesis import strategies as st
 

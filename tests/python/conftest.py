@@ -1,4 +1,4 @@
-"""What tests of several folders use: scenarios of a few lines, a wall clock, a vehicle with MAVLink."""
+"""Fixtures of several directories: small scenarios, a wall clock, a vehicle with MAVLink."""
 
 import json
 import shutil
@@ -52,12 +52,12 @@ FLOWN = (
 )
 
 settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("any machine")  # a machine that does other things, too, makes no test fail
+settings.load_profile("any machine")  # a busy machine must not make a test fail
 
 
 @pytest.fixture(autouse=True, scope="session")
 def ctrl_c() -> None:
-    """Ctrl-C interrupts, also where the tests run in the background, which starts with it ignored."""
+    """Make Ctrl-C interrupt also if the tests run in the background, where it is ignored at first."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
@@ -76,7 +76,7 @@ def make_scenario(tmp_path: Path) -> Callable[..., Scenario]:
 
 @pytest.fixture
 def toy_copter(tmp_path: Path) -> Callable[..., Path]:
-    """`toy_copter({0: {"deaf": True}})`: path of a program in ArduCopter's place, and what it does wrong."""
+    """`toy_copter({0: {"deaf": True}})`: path of a program that replaces ArduCopter, with these faults."""
     folder = tmp_path / "program"
     folder.mkdir()
     program = folder / "arducopter"
@@ -109,7 +109,10 @@ def flown_scenario(
 
 @pytest.fixture(scope="session")
 def type_errors(pytestconfig: pytest.Config) -> Callable[[Path], str]:
-    """`type_errors(file)`: what mypy --strict says against a file, run in its folder; empty for nothing."""
+    """`type_errors(file)`: errors of mypy --strict in a file, run in its directory.
+
+    Empty if there are none.
+    """
     package = Path(__file__).parents[2] / "python"
     assert pytestconfig.cache is not None
     cache = f"--cache-dir={pytestconfig.cache.mkdir('mypy')}"
@@ -129,7 +132,7 @@ def type_errors(pytestconfig: pytest.Config) -> Callable[[Path], str]:
 
 
 class WallClock:
-    """Stands for the module `time`: it goes on only while somebody sleeps."""
+    """Replacement of the module `time`: it advances only by `sleep`."""
 
     def __init__(self) -> None:
         self.now = 100.0
@@ -140,14 +143,14 @@ class WallClock:
         return self.now
 
     def sleep(self, duration_s: float) -> None:
-        """Let them go by."""
+        """Advance the clock."""
         self.sleeps.append(duration_s)
         self.now += duration_s
 
 
 @pytest.fixture
 def wall_clock(monkeypatch: pytest.MonkeyPatch) -> WallClock:
-    """The clock that simulations in real time keep to."""
+    """Return the clock of simulations in real time."""
     clock = WallClock()
     monkeypatch.setattr(real_time, "time", clock)
     return clock

@@ -1,8 +1,8 @@
-"""Flights without autopilots, which keep a diary."""
+"""Flights without autopilots, which log their calls."""
 
 
 class PlayedPilot:
-    """Writes down its orders."""
+    """Logs its commands."""
 
     def __init__(self):
         self.orders = []
@@ -12,7 +12,7 @@ class PlayedPilot:
 
 
 class PlayedFlights:
-    """In the place of `Flights`: of node 0, whose x is the time up to which it has flown."""
+    """Replaces `Flights`: only node 0, whose x is the time up to which it has flown."""
 
     ids = frozenset({0})
 

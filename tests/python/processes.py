@@ -1,4 +1,4 @@
-"""What tests see of other processes: those of a session, and a condition that they wait for."""
+"""Observation of other processes: those of a session, and a condition to wait for."""
 
 import contextlib
 import time
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def session(leader: int) -> list[int]:
-    """The processes of a session that have not ended."""
+    """Return the running processes of a session."""
     found = []
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
@@ -19,7 +19,7 @@ def session(leader: int) -> list[int]:
 
 
 def wait_until(condition: Callable[[], bool], seconds: float = 30.0) -> None:
-    """Wait for a condition, so long at most."""
+    """Wait for a condition, at most this long."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end

@@ -1,4 +1,4 @@
-"""A protocol that does nothing, for those that do one thing: as a class, and as text for files."""
+"""A protocol that does nothing, as a base class, and as source code for files."""
 
 import inspect
 
@@ -7,7 +7,7 @@ from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Quiet(IProtocol):
-    """Nothing, at any of its callbacks."""
+    """Does nothing in its callbacks."""
 
     def initialize(self) -> None: ...
     def handle_timer(self, timer: str) -> None: ...

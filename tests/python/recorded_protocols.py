@@ -1,4 +1,4 @@
-"""Protocols whose vectors are known, and what was recorded of them, for both modes."""
+"""Protocols with known vectors, and their records, for both modes."""
 
 COUNTER = """
 class Tested(Quiet):

@@ -1,10 +1,10 @@
-"""A protocol that keeps what it was called with."""
+"""A protocol that records its callbacks."""
 
 from gradysim.protocol.interface import IProtocol
 
 
 class RecordingProtocol(IProtocol):
-    """Keeps the callbacks that reach it, as (name, *arguments); subclasses may override `note`."""
+    """Records its callbacks, as (name, *arguments); subclasses may override `note`."""
 
     def __init__(self):
         self.calls = []

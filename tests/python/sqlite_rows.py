@@ -1,4 +1,4 @@
-"""Asks files of results in SQLite, without the readers that are tested."""
+"""Reads result files in SQLite, without the readers under test."""
 
 import sqlite3
 from contextlib import closing

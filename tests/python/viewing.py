@@ -1,4 +1,4 @@
-"""A viewer of `gradysim view`, in place of a browser."""
+"""A viewer of `gradysim view` that replaces a browser."""
 
 import json
 import shlex
@@ -12,7 +12,7 @@ from websockets.sync.client import connect
 
 
 def watched(command: str, folder: Path, **options: Any) -> tuple[dict[str, Any], int, str]:
-    """Return how the run of `gradysim view FILE.ini ...` ended, its exit code, and its error output."""
+    """Return the final message of the run of `gradysim view FILE.ini ...`, exit code and error output."""
     arguments = [*shlex.split(command)[1:], "--no-browser"]
     with subprocess.Popen(
         [sys.executable, "-m", "gradysim", *arguments],

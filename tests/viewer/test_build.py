@@ -1,4 +1,4 @@
-"""The page that the package has is the one that its sources give."""
+"""The page in the package is the one built from its sources."""
 
 import subprocess
 

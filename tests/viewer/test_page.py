@@ -1,4 +1,4 @@
-"""What the page shows of a replay, in a browser."""
+"""Content of the replay page, in a browser."""
 
 import json
 import re
@@ -31,7 +31,7 @@ SPEED_MPS = 10.0
 
 
 def state(replay, time_s):
-    """What `gradysim.state` of the page says, from the tables."""
+    """Return the state that `gradysim.state` of the page gives, computed from the tables."""
     began = [start <= time_s * 1e9 for start in replay.table("frames")["time_ns"]]
     outcomes = Counter(reception.outcome for reception in replay.receptions() if began[reception.frame])
     outcomes["below_sensitivity"] = sum(
@@ -154,7 +154,7 @@ def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
     follows = {"follows": "document.querySelector('button[title^=Follow]').ariaPressed"}
     said = browser(reports, keys=["n", "PageDown", "f", "t", *steps, "a"], values=follows)
     assert said["values"] == {"follows": "false"}
-    # The same view, in which no line was drawn before the view changed.
+    # The same view, without lines drawn before the view changed.
     begun = sum(start_ns <= frames["time_ns"][second] for start_ns in frames["time_ns"])
     row = second - max(0, begun - 30)
     time_s = frames["time_ns"][second] / 1e9
@@ -216,7 +216,7 @@ def test_a_run_is_shown_while_it_goes_on(zigzag, browser):
 
 
 class Flyer(Quiet):
-    """Flies along x, and counts seconds in a variable whose name is not HTML."""
+    """Flies along x, and counts seconds in a variable whose name contains HTML characters."""
 
     def initialize(self):
         self.provider.send_mobility_command(GotoCoordsMobilityCommand(1e5, 20 * self.provider.get_id(), 0))
@@ -233,7 +233,7 @@ class Flyer(Quiet):
 
 @pytest.fixture
 def shown():
-    """A `VisualizationHandler`, with a simulation that goes on in a thread until the test ends."""
+    """Return a `VisualizationHandler`, with a simulation that runs in a thread until the test ends."""
     handler = VisualizationHandler(VisualizationConfiguration(host="127.0.0.1", port=0))
     builder = SimulationBuilder(SimulationConfiguration(execution_logging=False, real_time=True))
     for other in (TimerHandler(), MobilityHandler(), handler):

@@ -1,4 +1,4 @@
-"""What a user of the package might write; `test_typed_user_code.py` hands it to mypy."""
+"""Example of a user's code, which `test_typed_user_code.py` checks with mypy."""
 
 import math
 from dataclasses import dataclass

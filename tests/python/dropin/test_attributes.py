@@ -1,4 +1,4 @@
-"""Public attributes of instances, which no signature shows."""
+"""Public attributes of instances, which signatures do not show."""
 
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: failures."""
+"""Behavior that users rely on, and fixes of the published package: failures."""
 
 from pathlib import Path
 

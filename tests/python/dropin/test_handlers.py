@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: handlers."""
+"""Behavior that users rely on, and fixes of the published package: handlers."""
 
 from collections.abc import Callable
 from typing import Any

@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: messages and positions."""
+"""Behavior that users rely on, and fixes of the published package: messages and positions."""
 
 from typing import Any
 

@@ -1,9 +1,9 @@
-"""Every public name of gradysim 0.8.2 is here too, with its parameters, defaults and values.
+"""Every public name of gradysim 0.8.2 exists here, too, with its parameters, defaults and values.
 
-`published_names.txt` holds them, as seen from outside: `inspect.signature` without annotations and `self`,
-the members of enumerations, the values of constants, and where the exports of packages come from. Left out
-are the insides of Raft (`raft_node`, the messages of `raft_message`) and of `ardupilot_mobility` (`Drone`, a
-client of another program), and what modules happen to import.
+`published_names.txt` lists them as seen from outside: `inspect.signature` without annotations and `self`, the
+members of enumerations, the values of constants, and the origins of exports. It leaves out the internals of
+Raft (`raft_node`, the messages of `raft_message`) and of `ardupilot_mobility` (`Drone`, a client of another
+program), and names that modules happen to import.
 """
 
 import importlib
@@ -68,7 +68,7 @@ DELIBERATE = {
         "new keywords: for execution_logging=False, and the clock of the formatter",
     ),
 }
-"""What differs on purpose: name -> (ours, why)."""
+"""Intended differences: name -> (our value, reason)."""
 
 
 class Row(NamedTuple):
@@ -96,7 +96,7 @@ PUBLISHED = published()
 
 
 def described(row: Row) -> str:
-    """How our object of that name would be written in the table."""
+    """Return the row that our object of that name would have in the table."""
     container: Any = importlib.import_module(row.module)
     *classes, name = row.name.split(".")
     for each in classes:
@@ -138,7 +138,7 @@ def parameters(thing: Callable[..., Any], skip: int = 0) -> str:
 
 
 def names(parameters: str) -> list[str]:
-    """The names of "(a, b=C(x=1), *, d)"; those that need no value end in "=", as the star does."""
+    """Return the names in "(a, b=C(x=1), *, d)"; optional ones end in "=", and so does the star."""
     inner = parameters[1:-1]
     while "(" in inner:
         inner = re.sub(r"\([^()]*\)", "", inner)

@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: order and time."""
+"""Behavior that users rely on, and fixes of the published package: order and time."""
 
 import pytest
 

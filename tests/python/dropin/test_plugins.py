@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: plugins."""
+"""Behavior that users rely on, and fixes of the published package: plugins."""
 
 from typing import Any, cast
 from unittest.mock import MagicMock
@@ -141,7 +141,7 @@ def test_a_random_trip_may_be_made_in_the_constructor() -> None:
 
 
 class Mock:
-    """A user's mock of a provider: it has only what its test needs."""
+    """A user's mock of a provider, with only the methods of its test."""
 
     def __init__(self) -> None:
         self.timers: list[tuple[str, float]] = []

@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: the simulator."""
+"""Behavior that users rely on, and fixes of the published package: the simulator."""
 
 import logging
 from pathlib import Path
@@ -35,7 +35,7 @@ def test_the_protocol_of_a_node_can_be_reached_from_outside() -> None:
 
 
 def test_a_loop_around_single_events_works_with_the_names_it_has_in_published_scripts() -> None:
-    """As environments of reinforcement learning run a simulation, and end it when their episode is over."""
+    """Environments of reinforcement learning run a simulation in this way until their episode ends."""
     finished = []
 
     class Ticking(Quiet):

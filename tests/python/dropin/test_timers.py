@@ -1,4 +1,4 @@
-"""What users rely on, and where the published package was wrong: timers."""
+"""Behavior that users rely on, and fixes of the published package: timers."""
 
 from gradysim.encapsulator.interop import ConsequenceType, InteropEncapsulator
 from python.dropin.user_code import simulation

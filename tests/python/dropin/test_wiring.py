@@ -1,4 +1,4 @@
-"""Handlers, nodes and event loop put together by hand, as in users' tests and handlers of their own."""
+"""Handlers, nodes and event loop combined by hand, as in users' tests and handlers."""
 
 import math
 from typing import Any
@@ -22,7 +22,7 @@ from gradysim.simulator.node import Node
 
 
 class Encapsulated:
-    """What a user's test of a handler puts into a node: any object with the three callbacks."""
+    """Encapsulator of a user's handler test: any object with the three callbacks."""
 
     def __init__(self) -> None:
         self.calls: list[Any] = []
@@ -38,7 +38,7 @@ class Encapsulated:
 
 
 def wired(*handlers: INodeHandler, nodes: int = 1) -> tuple[EventLoop, list[Node[Any]]]:
-    """Handlers and nodes put together by hand, as in a user's test."""
+    """Combine handlers and nodes by hand, as in a user's test."""
     loop = EventLoop()
     made: list[Node[Any]] = []
     for handler in handlers:

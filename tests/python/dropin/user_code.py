@@ -1,4 +1,4 @@
-"""What a user writes: a protocol, an environment of one's own, a script that builds a simulation."""
+"""Example of a user's code: a protocol, an environment, and a script that builds a simulation."""
 
 from typing import Any
 
@@ -20,7 +20,7 @@ from gradysim.simulator.simulation import (
 
 
 class Provider(IProvider):
-    """A user's own environment, written against the published interface: all that it has is a clock."""
+    """A user's own environment, written against the published interface: it has only a clock."""
 
     now = 0.0
 
@@ -42,7 +42,7 @@ class Provider(IProvider):
 def simulation(
     *protocols: type[IProtocol], handlers: tuple[INodeHandler, ...] | None = None, **configuration: Any
 ) -> Simulator:
-    """A simulation of nodes at the origin, with timers and communication if nothing else is said."""
+    """Return a simulation of nodes at the origin, by default with timers and communication."""
     builder = SimulationBuilder(
         SimulationConfiguration(**{"duration": 10, "execution_logging": False} | configuration)
     )

@@ -9,7 +9,7 @@ from python.recording_protocol import RecordingProtocol
 
 
 class Script(RecordingProtocol):
-    """Does in each callback what `do` says."""
+    """Executes the actions of `do` in each callback."""
 
     do = staticmethod(lambda protocol: None)
 

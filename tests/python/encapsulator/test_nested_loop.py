@@ -1,4 +1,4 @@
-"""A loop within another one."""
+"""A loop inside another one."""
 
 import asyncio
 

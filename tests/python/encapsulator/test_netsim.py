@@ -1,4 +1,4 @@
-"""The glue to the compiled engine, tested with the engine itself."""
+"""The connection to the compiled engine, tested with the engine itself."""
 
 import gc
 from weakref import ref
@@ -31,7 +31,7 @@ ORIGIN = (-22.9, -43.2, 10.0)
 
 
 class Recorder(RecordingProtocol):
-    """Notes its calls and their times; `script` maps the name of a callback to what is done in it."""
+    """Logs its calls and their times; `script` maps the name of a callback to an action."""
 
     script: dict = {}  # noqa: RUF012 - set per test by `encapsulated`
 
@@ -43,7 +43,7 @@ class Recorder(RecordingProtocol):
 
 
 class Pair:
-    """Two nodes, 10 m apart, on an ideal channel; node 0 follows the script, node 1 only listens."""
+    """Two nodes, 10 m apart, on an ideal channel. Node 0 follows the script, node 1 only receives."""
 
     def __init__(self, seed=0, **script):
         self.network = _netsim.Network(_netsim.MediumConfig("UnitDiskRadioMedium"), seed)

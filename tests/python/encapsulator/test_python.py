@@ -12,7 +12,7 @@ from python.recording_protocol import RecordingProtocol
 
 
 class Handler:
-    """Takes every call that a provider makes, as (name, *arguments)."""
+    """Logs every call of a provider, as (name, *arguments)."""
 
     def __init__(self):
         self.calls = []

@@ -1,4 +1,4 @@
-"""The engine's generator in Python: the same words, the same numbers, and a random.Random in all else."""
+"""The engine's generator in Python: the same words, the same numbers, and otherwise a random.Random."""
 
 import copy
 import pickle
@@ -58,7 +58,7 @@ def test_the_numbers_of_purposes_are_the_engines():
 
 @pytest.mark.parametrize("first", [0, 5, 2**32 - 3, 2**64 - 3])
 def test_words_come_block_by_block(first):
-    """However many are drawn at once; block numbers have 64 bits and begin again behind the last one."""
+    """For any number of words drawn at once. Block numbers have 64 bits and wrap around."""
     stream = RandomStream(0x1234567890ABCDEF, 7, Purpose.PROTOCOL)
     tag, name, _, words, gauss = stream.getstate()
     stream.setstate((tag, name, first, words, gauss))
@@ -117,7 +117,7 @@ def test_a_negative_number_of_bits_is_refused():
 def test_a_state_goes_on_where_it_was_taken(seed, node, words):
     stream = RandomStream(seed, node)
     stream.getrandbits(32 * words)
-    stream.gauss(0, 1)  # keeps a second number for the next call
+    stream.gauss(0, 1)  # stores a second number for the next call
     other = RandomStream()
     other.setstate(stream.getstate())
     assert [other.random(), other.gauss(0, 1)] == [stream.random(), stream.gauss(0, 1)]

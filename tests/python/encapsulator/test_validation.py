@@ -211,7 +211,7 @@ def test_exchanged_latitude_and_longitude(place: Position, origin: Position, hin
         ((-43.2, -22.9, 10), ORIGIN),  # far away both ways
         ((-22.9, -43.2, 10), RIO),
         ((-23.9, -43.2, 10), RIO),  # 111 km
-        ((10.1, 9.9, 0), (10.0, 10.0, 0.0)),  # near both ways
+        ((10.1, 9.9, 0), (10.0, 10.0, 0.0)),  # near in both orders
         ((46.42, 45.05, 0), (45.03, 46.24, 0.0)),  # 181 km, across the diagonal
         ((36.54, 39.07, 0), (38.69, 36.08, 0.0)),  # 353 km, and 52 km the other way
         ((5.0, 100.0, 0), ORIGIN),  # exchanged, it is not a latitude

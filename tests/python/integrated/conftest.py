@@ -1,4 +1,4 @@
-"""Tests of what needs the compiled part."""
+"""Tests that need the compiled part."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Two ends of a link, for tests of how far it reaches."""
+"""Two ends of a link, for tests of its range."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ _FILE = Path(__file__).parents[3] / "configs/fading.ini"
 
 
 def link(*settings: str) -> Scenario:
-    """A sender of 2000 broadcasts, and ten sinks, from 100 m to 1 km."""
+    """Return a sender of 2000 broadcasts and ten sinks, from 100 m to 1 km."""
     overrides = [*settings, "*.sender.protocol.interval = 5ms", "**.radio.receiver.sensitivity = -120dBm"]
     overrides.append("*.receivers[*].protocol.count_from = 0s")
     return load_scenarios(_FILE, "FreeSpace", overrides=overrides)[0]

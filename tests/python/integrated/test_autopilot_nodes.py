@@ -1,4 +1,4 @@
-"""Nodes of the engine that autopilots fly; the autopilots are played."""
+"""Nodes of the engine with autopilots; the tests play the autopilots."""
 
 import gc
 

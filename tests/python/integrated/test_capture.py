@@ -135,7 +135,7 @@ def test_a_file_that_lacks_its_end_is_told_beside_what_a_protocol_raised(make_sc
 
 @pytest.fixture
 def odd_folder(tmp_path):
-    """A folder whose name is no UTF-8."""
+    """Return a directory whose name is not UTF-8."""
     folder = tmp_path / os.fsdecode(b"r\xfe")
     folder.mkdir()
     return folder

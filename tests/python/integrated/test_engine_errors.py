@@ -25,7 +25,7 @@ def setting(value, key="key"):
 
 
 def radio_error(settings, **fields):
-    """The error of a radio with these fields, where `settings` were written."""
+    """Return the error of a radio with these fields; `settings` are their places in the file."""
     radio = _netsim.RadioConfig()
     for name, value in fields.items():
         setattr(radio, name, value)

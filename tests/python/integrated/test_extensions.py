@@ -1,4 +1,4 @@
-"""Extensions of prototype mode in integrated mode: what works there, and what says that it does not."""
+"""Extensions of prototype mode in integrated mode: those that work, and errors of the others."""
 
 import pytest
 

@@ -12,7 +12,7 @@ class Tested(Quiet):
     def handle_timer(self, timer):
         self.provider.send_communication_command(BroadcastMessageCommand("hello"))
 """
-"""All but node 1 send at the same instant: there, the frames of the others are lost to each other."""
+"""All nodes except node 1 send at the same instant: their frames are lost to each other."""
 
 ANSWERED = """
 class Tested(Talker):
@@ -34,7 +34,7 @@ class Tested(Quiet):
         if node_id == 2:
             self.provider.send_communication_command(BroadcastMessageCommand("hello"))
 """
-"""Node 1 is on the channel of node 0's first radio, not on that of its second one."""
+"""Node 1 is on the channel of node 0's first radio, not of its second one."""
 
 TWO_RADIOS = ("*.uavs[0].numWlanInterfaces = 2", "*.uavs[0].wlan[1].radio.channelNumber = 5")
 

@@ -1,4 +1,4 @@
-"""Handlers beside the engine: what they are given, when it is their turn, and how a run ends with them."""
+"""Handlers in integrated mode: their arguments, the order of their calls, and the end of a run."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Nodes with several network interfaces: where their mistakes are told, and what sends on which of them."""
+"""Nodes with several network interfaces: places of errors, and the interface of each message."""
 
 from contextlib import nullcontext
 
@@ -71,7 +71,7 @@ def test_a_command_names_an_interface_that_is_there(make_scenario, interface, te
 
 
 def test_an_index_of_a_class_of_its_own_is_an_int_too(make_scenario):
-    """As the members of an enumeration that names the interfaces."""
+    """For example, members of an enumeration that names the interfaces."""
     sending = SENDING.format("type('Index', (int,), {})(1)")
     assert run(make_scenario(sending, TWO, UNIT_DISK)).fates["messages"]["broadcast"]["sent"] == 2
 

@@ -1,4 +1,4 @@
-"""Hours into a run, where float seconds are more than the engine's picosecond apart, now is still now."""
+"""Hours into a run, float seconds are more than a picosecond apart; the current time is still valid."""
 
 from gradysim.integrated.run import run
 from python.integrated.watching import Stepping

@@ -20,7 +20,7 @@ BEACON = '*.uavs[*].protocol.typename = "BeaconProtocol"'
 
 
 def kinds_of(cls):
-    """The default of each parameter, and its type."""
+    """Return the default of each parameter, and its type."""
     kinds = {}
     for name, kind in parameters_of(cls).items():
         default = getattr(cls, name)
@@ -35,7 +35,7 @@ def kinds_of(cls):
 def test_parameters_are_those_of_the_class_in_python(name):
     native = native_protocols()[name]
     python = ProtocolLoader().load(native._python_class, ROOT)
-    # Not their units: a class in Python has no place to declare them.
+    # Without units, which a Python class cannot declare.
     assert kinds_of(native) == kinds_of(python)
 
 

@@ -82,7 +82,7 @@ def test_noise_of_a_receiver_that_would_keep_its_channel_busy_is_an_error_there(
 
 
 def with_error_table(make_scenario, value):
-    """Return a scenario whose radios have that table of error rates, as it stands in a file."""
+    """Return a scenario whose radios have that table of error rates, as in a file."""
     return make_scenario(
         "class Tested(Quiet): pass",
         '**.errorModel.typename = "Ieee80211BerTableErrorModel"',

@@ -16,7 +16,7 @@ CONFIGS = Path(__file__).parents[3] / "configs"
 EXAMPLES = [
     (file, config)
     for file in sorted(CONFIGS.rglob("*.ini"))
-    if "sim-time-limit" in file.read_text()  # the others are only there to be included
+    if "sim-time-limit" in file.read_text()  # other files are only included
     for config in config_names(read_ini(file))
 ]
 UAVS = "*.uavs[*]"
@@ -36,7 +36,7 @@ Findings = Callable[..., list[Finding]]
 
 @pytest.fixture
 def findings(make_scenario: Callable[..., Scenario]) -> Findings:
-    """`findings(*settings)`: those of two nodes with these settings."""
+    """`findings(*settings)`: findings for two nodes with these settings."""
 
     def of(*settings: str) -> list[Finding]:
         return lint_networks([make_scenario("class Tested(Talker): pass", *settings)])
@@ -53,7 +53,7 @@ DEFAULTS: dict[str, str | None] = {
 
 
 def chosen(**others: str | None) -> Chosen:
-    """What is in force: `chosen(path_loss="RicianFading")`."""
+    """Return the chosen models: `chosen(path_loss="RicianFading")`."""
     in_force = {short(target): name for target, name in DEFAULTS.items()} | others
     return lambda target: in_force[short(target)]
 
@@ -67,7 +67,7 @@ def line(number: int, key: str = "**.key", file: str = "a.ini") -> Source:
 
 
 def unread(sources: dict[str, Source], in_force: Chosen) -> list[Finding]:
-    """Return the findings for lines that are in force for one node or the network."""
+    """Return the findings for the effective lines of one node or the network."""
     lines = UnreadLines()
     lines.add(sources, in_force, "uavs[*]")
     return list(lines.findings())
@@ -347,7 +347,7 @@ def test_the_line_is_named_where_the_other_mode_is_the_default(findings: Finding
 @pytest.mark.parametrize(
     "settings",
     [
-        (op_mode("uavs[0]", "b"),),  # the other one is of g(mixed)
+        (op_mode("uavs[0]", "b"),),  # the other node has g(mixed)
         (op_mode("uavs[*]", "a"),),
         (op_mode("uavs[0]", "a"), "*.uavs[0].wlan[*].radio.channelNumber=5"),
         (op_mode("uavs[0]", "a"), '*.radioMedium.typename="UnitDiskRadioMedium"'),

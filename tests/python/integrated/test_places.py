@@ -1,4 +1,4 @@
-"""Where stations stand must not decide whether their slots collide: at one point, on a line, anywhere."""
+"""The positions of stations do not affect whether their slots collide: at one point, on a line, anywhere."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ SATURATION = Path(__file__).resolve().parents[3] / "configs" / "reference" / "sa
 
 
 def lost_in_slots(*places: str) -> int:
-    """Unicast frames that ten saturating stations lose because others used the same slot."""
+    """Return the unicast frames that ten saturated stations lose by sharing a slot."""
     overrides = ["*.numStations = 10", "sim-time-limit = 2s", *places]
     (scenario,) = load_scenarios(SATURATION, "G54", overrides=overrides)
     fates = run(scenario).fates["frames"]["unicast"]

@@ -1,4 +1,4 @@
-"""Interfaces that are given a range instead of a power."""
+"""Interfaces with a range instead of a power."""
 
 from inspect import signature
 
@@ -31,7 +31,7 @@ def test_of_range_and_power_the_first_line_is_in_force(settings: tuple[str, ...]
 
 
 def powers_w(scenario: Scenario, node: int) -> list[float]:
-    """Those of a node's interfaces."""
+    """Return the powers of a node's interfaces."""
     config = node_config(scenario.nodes[node])
     PowersForRanges(medium_config(scenario)).set_powers(config, scenario.nodes[node])
     return [interface.radio.tx_power_w for interface in config.wlan]

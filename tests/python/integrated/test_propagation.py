@@ -1,4 +1,4 @@
-"""Path loss and fading as seen from Python: for link budgets and tests/verification."""
+"""Path loss and fading through the Python bindings: for link budgets and tests/verification."""
 
 import math
 

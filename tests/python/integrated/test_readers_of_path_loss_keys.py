@@ -1,4 +1,4 @@
-"""A path loss reads just the fields whose keys say so: of all others `gradysim run` warns."""
+"""A path loss reads exactly the fields of its keys: `gradysim run` warns of all others."""
 
 import re
 
@@ -27,7 +27,7 @@ OTHER_VALUES = {
     "shape_factor": 3.0,
     "coherence_time_s": 0.02,
 }
-"""Of each field one that is not its default."""
+"""For each field a value that is not its default."""
 
 SENDER = (0.0, 0.0, 2.0)
 RECEIVERS = [(distance_m, 0.0, height_m) for distance_m in (3, 15, 50, 400, 3000) for height_m in (1.5, 30)]

@@ -6,7 +6,7 @@ from gradysim.simulator.handler.interface import INodeHandler
 
 
 class Watching(INodeHandler):
-    """Notes when by the wall clock it is asked, and may hold the run up once."""
+    """Logs the wall times of its calls, and may delay the run once."""
 
     def __init__(self, clock, pause_s=0.0):
         self.clock = clock

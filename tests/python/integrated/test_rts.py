@@ -1,4 +1,4 @@
-"""RTS and CTS are counted in the results of runs that use them."""
+"""Results count RTS and CTS of runs that use them."""
 
 from pathlib import Path
 

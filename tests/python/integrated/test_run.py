@@ -19,7 +19,7 @@ def test_fates_count_what_was_sent(make_scenario):
 
 
 def test_fates_of_options_are_in_all_results(make_scenario):
-    """So that who reads results need not ask which there are."""
+    """Readers of results need not check whether an outcome exists."""
     fates = run(make_scenario()).fates
     sent_to_one = ("unicast", "ack", "rts", "cts")
     kinds = {"broadcast", *sent_to_one, *(f"{kind} overheard" for kind in sent_to_one)}

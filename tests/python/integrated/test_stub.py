@@ -1,4 +1,4 @@
-"""The stub of the compiled part says what there is in it."""
+"""The stub of the compiled part matches its content."""
 
 import os
 import re
@@ -9,13 +9,13 @@ from pathlib import Path
 PACKAGE = Path(__file__).parents[3] / "python"
 
 OF_PYBIND11 = re.compile(r"metaclass differs|stub does not have \*args parameter")
-"""Its metaclass has no name, and a class without a constructor is one that takes anything and refuses it."""
+"""Its metaclass has no name, and a class without a constructor has one that rejects all arguments."""
 
 
 def test_it_is_that_of_the_module(tmp_path: Path) -> None:
     said = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "gradysim._netsim", "--concise"],
-        cwd=tmp_path,  # else it leaves a cache here
+        cwd=tmp_path,  # otherwise it leaves a cache here
         env={**os.environ, "MYPYPATH": str(PACKAGE), "PYTHONPATH": str(PACKAGE)},
         capture_output=True,
         text=True,

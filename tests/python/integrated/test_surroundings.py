@@ -1,4 +1,4 @@
-"""Antennas and obstacles from an .ini file to what is received: configs/town."""
+"""Antennas and obstacles, from an .ini file to the receptions: configs/town."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -16,7 +16,7 @@ SENT = 200
 
 
 def received(config: str, *overrides: str) -> list[int]:
-    """Frames at each drone."""
+    """Return the number of frames at each drone."""
     result = run(load_scenarios(TOWN, config, "0", overrides)[0])
     drones = [node for node in result.nodes if node.name.startswith("drones[")]
     return [int(str(node.tracked_variables["received"])) for node in drones]

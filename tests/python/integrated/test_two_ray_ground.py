@@ -1,4 +1,4 @@
-"""Nodes on the ground, where two rays cancel."""
+"""Nodes on the ground, where both rays cancel."""
 
 from collections.abc import Callable
 
@@ -11,7 +11,7 @@ from gradysim.scenario import Scenario
 
 @pytest.fixture
 def hint(make_scenario: Callable[..., Scenario]) -> Callable[..., str]:
-    """`hint(*settings)`: that for two nodes with these settings."""
+    """`hint(*settings)`: the hint for two nodes with these settings."""
 
     def of(*settings: str) -> str:
         scenario = make_scenario("class Tested(Talker): pass", *settings)

@@ -1,4 +1,4 @@
-"""The viewer beside the engine."""
+"""The viewer in integrated mode."""
 
 import json
 import queue
@@ -28,7 +28,7 @@ def visualization(**settings):
 
 
 class Audience(Watching):
-    """Connects a viewer to a visualization when the run begins, and reads to its end in a thread."""
+    """Connects a viewer to a visualization at the start of a run, and reads to its end in a thread."""
 
     def __init__(self, shown):
         super().__init__("audience")
@@ -54,7 +54,7 @@ class Audience(Watching):
 
 @pytest.fixture
 def watched(make_scenario):
-    """The messages that a viewer of a run gets."""
+    """Return the messages that a viewer of a run gets."""
 
     def watch(python):
         shown = visualization()

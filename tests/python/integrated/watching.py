@@ -9,7 +9,7 @@ class Tested(Talker):
 
 
 class Watching(INodeHandler):
-    """Keeps what it is given."""
+    """Keeps the arguments of its calls."""
 
     def __init__(self, label="watching"):
         self.label = label

@@ -1,4 +1,4 @@
-"""A study, and axes to draw into."""
+"""A study, and axes for drawings."""
 
 from pathlib import Path
 
@@ -17,10 +17,10 @@ def axes() -> Axes:
 
 @pytest.fixture
 def study(tmp_path: Path) -> Runs:
-    """Two values of a variable in both modes, three runs each of the same seeds.
+    """Return two values of a variable in both modes, with three runs of the same seeds each.
 
-    Integrated mode hears 1, 2 and 3 more than 10 with 1 ms, and 0, 0 and 1 more than 20 with 2 ms; the
-    prototype hears 10 and 20.
+    With 1 ms, integrated mode counts 1, 2 and 3 more than 10; with 2 ms, 0, 0 and 1 more than 20. The
+    prototype counts 10 and 20.
     """
     more = {"1ms": (1, 2, 3), "2ms": (0, 0, 1)}
     for mode in ("integrated", "prototype"):

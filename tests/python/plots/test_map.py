@@ -11,7 +11,7 @@ from python.study_files import write_result, write_vectors
 
 
 def track(directory: Path, *points: tuple[float, float]) -> Runs:
-    """A run with one node that flies, a point each second, and one that stands."""
+    """Return a run with one flying node, with a point each second, and one stationary node."""
     file = write_result(directory)
     coordinates = [dict(enumerate(axis)) for axis in zip(*points, strict=True)] + [
         dict.fromkeys(range(len(points)), 5.0)

@@ -13,7 +13,7 @@ from python.study_files import write_result
 
 @pytest.fixture
 def losses(tmp_path: Path) -> Runs:
-    """Two runs of one value, and one of another."""
+    """Return two runs of one value, and one run of another."""
     for run, (jitter, delivered, noise, far) in enumerate([(1, 6, 2, 8), (1, 3, 1, 12), (2, 10, 0, 6)]):
         counts = {"delivered": delivered, "noise": noise, "below_sensitivity": far, "in_air": 5}
         fates = {"frames": {"broadcast": counts}}

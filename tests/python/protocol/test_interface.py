@@ -5,7 +5,7 @@ from python.quiet_protocol import Quiet
 
 
 class SilentProvider(IProvider):
-    """What a user may write: the abstract methods and nothing else."""
+    """A user's provider with only the abstract methods."""
 
     def __init__(self, node_id=0):
         self.node_id = node_id

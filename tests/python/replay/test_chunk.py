@@ -13,7 +13,7 @@ NO_COUNTS = {"bin_ns": 1, "frames": [], "lost": []}, {"node": [], "outcome": [],
 
 
 def chunk_of(table, rows):
-    """A chunk with one table, whose columns all have the same rows."""
+    """Return a chunk with one table, whose columns all have the same rows."""
     columns = {
         name: {column.name: raw(column, rows if name == table else []) for column in declared}
         for name, declared in TABLES.items()

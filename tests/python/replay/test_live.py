@@ -34,7 +34,7 @@ def published():
 
 
 def status_for(live, path, *headers):
-    """The status line that a request gets."""
+    """Return the status line of the response to a request."""
     with socket.create_connection(("127.0.0.1", urlsplit(live.address).port)) as connection:
         connection.sendall("\r\n".join([f"GET {path} HTTP/1.1", *headers, "", ""]).encode())
         return connection.recv(1000).partition(b"\r\n")[0].decode()
@@ -54,7 +54,7 @@ def run_in_thread(scenario, live):
 
 
 def told_by(viewer):
-    """What a viewer gets up to the end of the run."""
+    """Return the messages that a viewer gets up to the end of the run."""
     run, chunks = None, []
     for message in viewer:
         if isinstance(message, bytes):

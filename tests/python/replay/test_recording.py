@@ -1,4 +1,4 @@
-"""What a replay has against the result of the same run, in both modes."""
+"""A replay compared with the result of the same run, in both modes."""
 
 import os
 import random

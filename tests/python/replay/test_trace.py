@@ -1,4 +1,4 @@
-"""The lines of a trace against a replay of the same run, in both modes."""
+"""The lines of a trace compared with a replay of the same run, in both modes."""
 
 from collections import Counter
 

@@ -13,7 +13,7 @@ from gradysim.results.confidence_interval import mean_of, mean_with_half_width
     [(2, 12.706), (3, 4.303), (4, 3.182), (5, 2.776), (10, 2.262), (11, 2.228), (31, 2.042), (121, 1.980)],
 )
 def test_half_widths_agree_with_the_table_of_student(runs: int, quantile: float) -> None:
-    """Of values 0 and 1, half of each, or one more 0, whose standard deviation is known."""
+    """For values 0 and 1, half of each, or one more 0. Their standard deviation is known."""
     ones = runs // 2
     values = [1.0] * ones + [0.0] * (runs - ones)
     mean = ones / runs

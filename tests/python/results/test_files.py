@@ -125,7 +125,7 @@ def is_done(scenario, mode, folder, fates_at=()):
 
 @pytest.fixture
 def done(make_scenario, tmp_path):
-    """A scenario and a folder with its result."""
+    """Return a scenario and a directory with its result."""
     scenario = make_scenario()
     result = dataclasses.replace(
         RESULT,
@@ -215,7 +215,7 @@ def test_a_file_of_something_else_is_no_result(done, content):
 
 @pytest.fixture
 def written(done):
-    """A scenario, the folder with its result, and a capture that this names."""
+    """Return a scenario, the directory with its result, and a capture named in the result."""
     scenario, result, folder = done
     folder.mkdir()
     capture = folder / "a.pcap"

@@ -1,4 +1,4 @@
-"""The tables are those that OMNeT++ 6.1 makes itself."""
+"""The tables are those of OMNeT++ 6.1."""
 
 import re
 
@@ -117,7 +117,7 @@ def path(tmp_path):
 
 @pytest.fixture
 def rows(path):
-    """`rows(query)`: of a file in which nothing but the run is."""
+    """`rows(query)`: rows of a file with only the attributes of the run."""
     with new_database(path, IDENTITY):
         pass
 

@@ -13,7 +13,7 @@ STUDY = ("repeat = 2", "**.heard = ${y=5, 6}", "**.mobility.speed = ${x=1, 2}mps
 
 @pytest.fixture
 def identity(make_scenario):
-    """`identity(*settings)`: that of the fourth run of a study."""
+    """`identity(*settings)`: attributes of the fourth run of a study."""
     base = make_scenario("class Tested(Talker): pass")
 
     def of(*settings):

@@ -91,7 +91,7 @@ def test_what_was_tracked_comes_back(tmp_path_factory, changes):
         is_number = isinstance(value, int | float)
         if is_number or name in expected:
             number = float(value) if is_number else math.nan
-            number += 0.0  # SQLite knows no -0.0
+            number += 0.0  # SQLite does not store -0.0
             rows = expected.setdefault(name, [])
             if not rows or rows[-1][1] != str(number):  # a change
                 rows.append((time_ps / 10**12, str(number)))

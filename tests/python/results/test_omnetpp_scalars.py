@@ -12,7 +12,7 @@ IDENTITY = RunIdentity("A-0-20261123-05:00:00-7", {}, {}, ())
 
 @pytest.fixture
 def rows(tmp_path):
-    """`rows(scalars, query, histograms)`: of a file that has these."""
+    """`rows(scalars, query, histograms)`: rows of a file with this content."""
 
     def of(scalars, query, histograms=()):
         path = tmp_path / "A.sca"

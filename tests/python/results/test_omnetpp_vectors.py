@@ -13,7 +13,7 @@ SECOND_PS = 10**12
 
 @pytest.fixture
 def rows(tmp_path):
-    """`rows(vectors, query)`: {(module, name): {time: value}} written, and asked."""
+    """`rows(vectors, query)`: rows of a file with these vectors, {(module, name): {time: value}}."""
 
     def of(vectors, query):
         path = tmp_path / "A.vec"

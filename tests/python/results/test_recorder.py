@@ -6,7 +6,7 @@ from gradysim.results.recorder import NodeRecorder, checked_ids, recorders_of
 
 
 def tracked(*changes, interval_s=0.0):
-    """What remains of (time, value) pairs of one variable, with NaN as "nan"."""
+    """Return the recorded part of (time, value) pairs of one variable, with NaN as "nan"."""
     recorder = NodeRecorder(interval_s)
     for time_ps, value in changes:
         recorder.variable_set(time_ps, "v", value)
@@ -21,7 +21,7 @@ def tracked(*changes, interval_s=0.0):
 
 
 def moved(*places, interval_s=0.0):
-    """The rows that remain of (time, x) pairs."""
+    """Return the recorded rows of (time, x) pairs."""
     recorder = NodeRecorder(interval_s)
     for time_ps, x in places:
         recorder.position_told(time_ps, x, 0.0, 0.0)

@@ -21,7 +21,7 @@ with run_locked(Path(sys.argv[1]), sys.argv[2]):
 
 @pytest.fixture
 def holder(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
-    """Another process that holds the lock of `A`."""
+    """Start another process that holds the lock of `A`."""
     with subprocess.Popen(
         [sys.executable, "-c", HOLDS, str(tmp_path), "A"],
         stdout=subprocess.PIPE,

@@ -1,4 +1,4 @@
-"""What protocols log, in both modes."""
+"""Log lines of protocols, in both modes."""
 
 import logging
 from contextlib import contextmanager
@@ -38,7 +38,10 @@ def mode(request):
 
 @contextmanager
 def logging_with(*handlers):
-    """Inside, the root logger has these handlers alone. Pytest adds some before each phase of a test."""
+    """Give the root logger only these handlers inside the block.
+
+    Pytest adds some before each phase of a test.
+    """
     root = logging.getLogger()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(root, "handlers", list(handlers))
@@ -88,7 +91,7 @@ def test_a_handler_of_the_user_writes_the_lines_instead(logged):
             written.append(record.getMessage())
 
     assert logged(logging.INFO, handlers=[Own()]) == []
-    assert written == ["first\nmessage"] * 2 + ["ended"] * 2  # at the level that the user has
+    assert written == ["first\nmessage"] * 2 + ["ended"] * 2  # at the user's level
 
 
 def test_a_file_of_the_user_gets_them_too(logged, tmp_path):

@@ -10,7 +10,7 @@ from python.study_files import write_result, write_vectors
 
 @pytest.fixture
 def study(tmp_path: Path) -> Path:
-    """Two values of a variable in both modes, two repetitions each."""
+    """Return two values of a variable in both modes, with two repetitions each."""
     for mode in ("integrated", "prototype"):
         for run in range(4):
             iterations = {"jitter": ("1ms", "10ms")[run // 2], "count": 4}

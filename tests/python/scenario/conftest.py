@@ -1,4 +1,4 @@
-"""Files of configurations and protocols for the tests of this folder."""
+"""Configuration and protocol files for the tests of this directory."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -44,11 +44,11 @@ sim-time-limit = 1h
 *.numUavs = 2
 *.uavs[*].protocol.class = "protocols.py:Mobile"
 """
-"""Five lines; what a test adds begins at line 6."""
+"""Five lines; lines added by a test start at line 6."""
 
 
 class Folder:
-    """A folder with an .ini file and the protocols that it names."""
+    """A directory with an .ini file and its protocols."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -63,18 +63,18 @@ class Folder:
         return file
 
     def load(self, added: str = "", config: str = "General", *overrides: str) -> Scenario:
-        """Run 0 of the base with some lines more."""
+        """Load run 0 of the base with additional lines."""
         self.write("test.ini", BASE + added)
         return load_scenarios(self.ini, config, "0", overrides)[0]
 
     def mistake(self, added: str = "", config: str = "General", *overrides: str) -> ConfigError:
-        """Return the error of the base with some more lines."""
+        """Return the error of the base with additional lines."""
         with pytest.raises(ConfigError) as caught:
             self.load(added, config, *overrides)
         return caught.value
 
     def error(self, added: str = "", config: str = "General", *overrides: str) -> str:
-        """The text of the error, the folder left out."""
+        """Return the message of the error, without the directory."""
         with pytest.raises(ConfigError) as caught:
             self.load(added, config, *overrides)
         return str(caught.value).replace(f"{self.path}/", "")
@@ -97,7 +97,7 @@ def write_ini(tmp_path: Path) -> Callable[..., Path]:
 
 @pytest.fixture
 def count_matches(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[[], object]], int]:
-    """`count_matches(do)`: how many texts are compared with patterns while that is done."""
+    """`count_matches(do)`: number of comparisons with patterns during the call."""
     compared = 0
     matches = Pattern.matches
 

@@ -1,4 +1,4 @@
-"""Bands and the centres of their channels."""
+"""Bands and the center frequencies of their channels."""
 
 import pytest
 

@@ -11,7 +11,7 @@ from gradysim.scenario.sweep import IterationVariable, name_iterations
 
 
 def variables_of(*texts: str) -> list[IterationVariable]:
-    """The variables of entries of different keys, from line 1 on."""
+    """Return the variables of entries with different keys, from line 1 on."""
     keys = [f"**.p{line}" for line in range(1, len(texts) + 1)]
     return name_iterations(
         Entry(key, text, Source(Path("a.ini"), line, key, text))

@@ -32,7 +32,7 @@ def test_all_64_bits_of_the_seed_count() -> None:
 
 
 def test_the_numbers_never_change() -> None:
-    """They are part of every result of a file that draws."""
+    """They are part of every result of a file with random values."""
     stream = ParameterStream(7, PATH, 0)
     assert [stream.uniform() for _ in range(3)] == [
         0.15135179371822116,
@@ -86,12 +86,12 @@ def drawn(text: str, seed: int = 1, path: str = "nodes[0].protocol.start") -> Qu
 
 
 def sample(text: str) -> list[float]:
-    """One number of each of many nodes."""
+    """Return one number for each of many nodes."""
     return [float(drawn(text, path=f"nodes[{index}].protocol.start").number) for index in range(COUNT)]
 
 
 def distance(text: str, distribution: Callable[[float], float]) -> float:
-    """The largest distance between the distribution function of the sample and the one it should have."""
+    """Return the largest distance between the distribution functions of the sample and of the model."""
     values = sorted(sample(text))
     return max(
         max(abs(distribution(value) - index / COUNT), abs(distribution(value) - (index + 1) / COUNT))

@@ -1,4 +1,4 @@
-"""Values that a file draws: for each node and parameter its own, for each seed others."""
+"""Random values of a file: different for each node, parameter and seed."""
 
 from dataclasses import replace
 from typing import Any
@@ -18,7 +18,7 @@ SCATTERED = """\
 
 
 def drawn(scenario: Scenario) -> dict[str, list[object]]:
-    """What each UAV has drawn, by its name."""
+    """Return the random values of each UAV, by its name."""
     return {
         node.name: [*node.initial_position[:2], *node.protocol_parameters.values()]
         for node in scenario.nodes

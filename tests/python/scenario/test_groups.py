@@ -10,7 +10,10 @@ from gradysim.scenario.lookup import Lookup, SettingReader
 
 
 def groups_of(*sections: str) -> list[Group]:
-    """Groups of entries `key = value`; the first section is searched first, the last is General."""
+    """Return groups of entries `key = value`.
+
+    The first section is searched first, the last one is General.
+    """
     entries = []
     for rank, section in enumerate(sections, start=1):
         for line, written in enumerate(section.split("\n"), start=1):

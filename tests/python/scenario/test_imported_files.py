@@ -6,7 +6,7 @@ from gradysim.scenario.protocols import imported_files, root_of_module
 
 
 def files(root: Path, **texts: str) -> set[str]:
-    """Write files, `a__b` for a/b.py, and return the names of those that main.py consists of."""
+    """Write files, `a__b` for a/b.py, and return the names of the files of main.py."""
     for name, text in texts.items():
         file = root / f"{name.replace('__', '/')}.py"
         file.parent.mkdir(parents=True, exist_ok=True)

@@ -294,4 +294,4 @@ def test_long_lines_take_little_time(write_ini: Write, text: str) -> None:
     started_s = time.process_time()
     with contextlib.suppress(ConfigError):
         read_ini(file)
-    assert time.process_time() - started_s < 5  # it was minutes
+    assert time.process_time() - started_s < 5  # it took minutes

@@ -1,4 +1,4 @@
-"""Nodes with several network interfaces, as .ini files say them."""
+"""Nodes with several network interfaces in .ini files."""
 
 from typing import Any
 
@@ -48,7 +48,7 @@ def test_a_range_of_indices_stands_for_those_interfaces(folder: Any) -> None:
 
 
 def test_a_range_may_go_beyond_the_interfaces_of_a_node(folder: Any) -> None:
-    """As everywhere in OMNeT++'s patterns: nodes of one file have different numbers of them."""
+    """As in all patterns of OMNeT++: nodes of one file have different numbers of interfaces."""
     scenario = folder.load(TWO + '**.wlan[1..5].opMode = "a"\n')
     assert [wlan.mac.keys() for wlan in scenario.nodes[1].wlan] == [set(), {"op_mode"}]
 
@@ -115,7 +115,7 @@ def test_a_wrong_channel_where_all_interfaces_are_alike_says_nothing_of_others(f
 
 
 def test_an_802154_interface_reads_no_name_of_a_band(folder: Any) -> None:
-    """A line with wildcards is meant for the others."""
+    """A line with wildcards is meant for the other interfaces."""
     scenario = folder.load(SENSORS + '**.bandName = "5.9 GHz"\n')
     assert [carriers(node) for node in scenario.nodes] == [[5.86e9], [None], [None]]
     assert carriers(

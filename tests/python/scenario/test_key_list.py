@@ -6,7 +6,7 @@ from gradysim.scenario.schema import HAS_TO_BE_GIVEN
 
 
 def row(end: str) -> KeyRow:
-    """The row of the key that ends so."""
+    """Return the row of the key with that end."""
     (found,) = [row for section in key_sections() for row in section.rows if row.key.endswith(end)]
     return found
 

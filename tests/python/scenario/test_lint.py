@@ -330,7 +330,7 @@ RTS = "**.rtsThreshold = ${rts=3000B, 100B}\n"
 
 
 def unread(folder: Any, added: str, *overrides: str, config: str = "General") -> Finding:
-    """Return the only finding for the base with some lines more."""
+    """Return the only finding for the base with additional lines."""
     folder.write("test.ini", BASE + added)
     scenario = load_scenarios(folder.ini, config, overrides=overrides)[-1]
     (finding,) = unread_variables(scenario.unread_variables, scenario.lines)
@@ -484,5 +484,5 @@ def test_a_long_list_of_values_takes_little_time() -> None:
     text = f"${{{', '.join(map(str, range(40_000)))}}}s"
     started_s = time.process_time()
     assert _unit_other_than_time(text, "uavs[0].protocol.interval") == ""
-    assert time.process_time() - started_s < 5  # it was minutes
+    assert time.process_time() - started_s < 5  # it took minutes
     assert _unit_other_than_time("${5, 10}m", "uavs[0].protocol.interval") == "m"

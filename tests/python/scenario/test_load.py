@@ -453,7 +453,7 @@ THREE_SWEEPS = (
 
 
 def networks_read(monkeypatch: pytest.MonkeyPatch) -> list[object]:
-    """The list that each network that is read from now on adds an element to."""
+    """Return a list that grows by one element for each network that is read."""
     read: list[object] = []
     monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
     return read
@@ -500,7 +500,7 @@ def test_all_choices_of_nodes_and_protocols_are_combined(folder: Any) -> None:
     choices = (
         '*.uavs[2].protocol.class = ${class="protocols.py:Mobile", "protocols.py:Sensor"}\n'
         "*.numUavs = ${n=1..3}\n"
-        "*.uavs[2].protocol.retries = 1\n"  # Sensor has no such parameter
+        "*.uavs[2].protocol.retries = 1\n"  # Sensor does not have this parameter
     )
     lines = BASE.replace("*.numUavs = 2\n", "").splitlines(keepends=True)
     folder.write("test.ini", "".join([*lines[:-1], choices, lines[-1], THREE_SWEEPS]))

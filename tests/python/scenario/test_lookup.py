@@ -1,4 +1,4 @@
-"""Fields of a struct, from the entries in force."""
+"""Fields of a struct, from the effective entries."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from gradysim.scenario.schema import Key
 
 
 def entries(*keys: str) -> list[Entry]:
-    """Entries in search order; the value is the position."""
+    """Return entries in search order; the value is the position."""
     return [Entry(key, str(order), Source(Path("a.ini"), order + 1, key)) for order, key in enumerate(keys)]
 
 
@@ -117,7 +117,7 @@ SPEED = Key("mobility.speed", "mobility.speed_mps", quantity("mps"), "")
 
 
 def radio(*lines: str, node: str = "uavs[0]") -> dict[str, object]:
-    """The fields of a node's radio that lines of a file set."""
+    """Return the fields of a node's radio, as set by lines of a file."""
     entries = [line.partition("=") for line in lines]
     lookup = Lookup(
         [
@@ -147,6 +147,6 @@ def test_a_default_that_comes_first_keeps_the_other_line_out() -> None:
 
 
 def test_each_node_draws_its_own() -> None:
-    """The path of the parameter is what tells the nodes from each other."""
+    """The path of the parameter distinguishes the nodes."""
     line = "*.uavs[*].radio.gain=uniform(0, 1)"
     assert len({radio(line, node=f"uavs[{number}]")["gain"] for number in range(3)}) == 3

@@ -111,7 +111,7 @@ LINES = [
     "constraint = $x < 2",
     "*.uavs[*].mobility.speed = fast\n*.uavs[*].mobility.initialX = 3s\nsim-time-limt = 3s",
 ]
-"""Lines of a section that is added to `BASE` of conftest.py; they begin at line 7."""
+"""Lines of a section added to `BASE` of conftest.py; they start at line 7."""
 
 FILES = [
     "a = 1\n; old\n",
@@ -135,7 +135,7 @@ FILES = [
     "*.uavs[${n}].x = 3\n",
     "include tst.ini\n",
 ]
-"""Whole files that cannot be read."""
+"""Whole files that are not readable."""
 
 SECTIONS = [
     ("[ZigZag5]\n[ZigZag15]\n", "Zigzag5"),
@@ -147,7 +147,7 @@ SECTIONS = [
     ("[A]\n[B]\nextends = A, A\n", "B"),
     ("[A]\n[General]\nextends = A\n", "General"),
 ]
-"""Whole files, and the configuration that cannot be run."""
+"""Whole files, and a configuration that does not run."""
 
 ARGUMENTS: list[dict[str, Any]] = [
     {"overrides": ["repeat"]},

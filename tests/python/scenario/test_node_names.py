@@ -9,7 +9,7 @@ from gradysim.scenario.scenario import check_node_names, nodes_named
 
 @pytest.fixture
 def scenario(make_scenario, tmp_path):
-    """Two UAVs and a ground station."""
+    """Return two UAVs and a ground station."""
     make_scenario()
     with (tmp_path / "test.ini").open("a") as file:
         file.write('*.groundStation.protocol.class = "protocol.py:Tested"\n')
@@ -52,7 +52,7 @@ def test_of_several_runs_the_one_without_such_a_node_is_named(scenario):
 
 @pytest.fixture
 def study(scenario):
-    """Runs with one UAV and with three."""
+    """Return runs with one UAV and with three."""
     return load_scenarios(scenario.file, overrides=["*.uavs.count = ${1, 3}"])
 
 

@@ -1,4 +1,4 @@
-"""What an .ini file says of the autopilot of a node."""
+"""Autopilot settings of a node in an .ini file."""
 
 import pickle
 from dataclasses import fields, replace
@@ -13,7 +13,7 @@ from python.quiet_protocol import Quiet
 
 
 def test_all_mappings_are_structs() -> None:
-    """One that is left out is not read from a file, and not reported where nothing reads it."""
+    """A missing one would not be read from a file, and not be reported as unread."""
     assert list(STRUCTS) == [field.name for field in fields(InterfaceSpec) if field.default_factory is dict]
 
 

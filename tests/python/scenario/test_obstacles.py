@@ -168,12 +168,15 @@ def test_corners_on_one_line_enclose_nothing() -> None:
         [SQUARE[::-1]],
         [SQUARE, ((3, 3), (3, 7), (7, 7))],
         [SQUARE, ((0, 3), (0, 7), (7, 7))],  # a courtyard at the wall
-        [((0, 0), (10, 0), (10, 0), (10, 10), (0, 10))],  # a corner twice
+        [((0, 0), (10, 0), (10, 0), (10, 10), (0, 10))],  # a repeated corner
         [((0, 0), (5, 0), (10, 0), (10, 10), (0, 10))],  # a corner on a straight side
-        [((0, 0), (10, 0), (10, 10), (10, 20), (10, 10), (0, 10))],  # there and back
+        [((0, 0), (10, 0), (10, 10), (10, 20), (10, 10), (0, 10))],  # back on the same line
         [((0, 0), (5, 5), (10, 0), (10, 10), (5, 5), (0, 10))],  # two triangles that meet in a corner
         [((0, 0), (10, 0), (10, 10), (5, -0.05), (0, 10))],  # within the tolerance
-        [((0, 0), (10, 0.05), (10, 10), (0, 10)), ((3, 0), (7, 0), (5, 5))],  # at the wall but for rounding
+        [
+            ((0, 0), (10, 0.05), (10, 10), (0, 10)),
+            ((3, 0), (7, 0), (5, 5)),
+        ],  # at the wall except for rounding
     ],
 )
 def test_sides_that_touch_do_not_cross(rings: list[Ring]) -> None:
@@ -200,10 +203,10 @@ U: Ring = ((0, 0), (10, 0), (10, 10), (7, 10), (7, 3), (3, 3), (3, 10), (0, 10))
         [SQUARE],
         [SQUARE, YARD],
         [SQUARE[::-1], YARD],
-        [SQUARE, ((0, 0), (10, 0), (5, 10))],  # all of its corners at the wall
+        [SQUARE, ((0, 0), (10, 0), (5, 10))],  # all of its corners are at the wall
         [SQUARE, ((0, 3), (0, 7), (7, 7))],
-        [SQUARE, ((-0.05, 3), (-0.05, 7), (7, 7))],  # at the wall but for rounding
-        [SQUARE, ((1, 1), (1, 2), (2, 1)), ((2, 1), (1, 2), (2, 2))],  # courtyards side by side
+        [SQUARE, ((-0.05, 3), (-0.05, 7), (7, 7))],  # at the wall except for rounding
+        [SQUARE, ((1, 1), (1, 2), (2, 1)), ((2, 1), (1, 2), (2, 2))],  # adjacent courtyards
         [U, ((8, 1), (9, 1), (8, 9))],
         [SQUARE, ((2, 2), (2, 5e-324), (3, 0))],
         [((0, 0), (9, 5e-324), (9, 0))] * 2,  # thinner than any number
@@ -219,11 +222,11 @@ def test_courtyards_are_within_the_outer_ring(rings: list[Ring]) -> None:
         ([SQUARE, moved(YARD, 100, 0)], (1, 0)),
         ([SQUARE, YARD, moved(YARD, 0, 8)], (2, 0)),
         ([YARD, SQUARE], (1, 0)),  # inner and outer exchanged
-        ([U, ((3, 10), (3, 3), (7, 3), (7, 10))], (1, 0)),  # what the outer ring leaves out
+        ([U, ((3, 10), (3, 3), (7, 3), (7, 10))], (1, 0)),  # the courtyard is outside of the outer ring
         ([SQUARE, ((5, 5), (10, 4), (12, 5), (10, 6))], (1, 0)),  # leaves through the wall by corners
         ([SQUARE, YARD, ((4, 4), (4, 6), (6, 6))], (2, 1)),
         ([SQUARE, ((4, 4), (4, 6), (6, 6)), YARD], (1, 2)),
-        ([SQUARE, YARD, YARD[::-1]], (2, 1)),  # the same once more
+        ([SQUARE, YARD, YARD[::-1]], (2, 1)),  # the same again
     ],
 )
 def test_finds_a_ring_that_is_not_a_courtyard(rings: list[Ring], found: tuple[int, int]) -> None:

@@ -1,4 +1,4 @@
-"""Each option that OMNeT++ 6.1 lists (`opp_run -h config`, `%` as 0) is known, ignored or refused."""
+"""Each option of OMNeT++ 6.1 (`opp_run -h config`, `%` as 0) is supported, ignored or rejected."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Parameters of protocols: which ones there are, their units, and setting them."""
+"""Parameters of protocols: their names, units and values."""
 
 import math
 from dataclasses import InitVar, dataclass, field
@@ -40,7 +40,7 @@ class Mobile(Base):
     heading_rad = 0.0
     text: Final = "x"
     flag = False
-    register = 1  # the name of a method of all abstract classes, but of no protocol
+    register = 1  # a method of all abstract classes, but not of protocols
     replaced = "now a string"  # type: ignore[assignment]
     hidden = None  # type: ignore[assignment]
     _private = 1
@@ -260,7 +260,7 @@ def test_native_protocols_declare_theirs(name: str, unit: str | None) -> None:
 
 
 class Flying(Quiet):
-    """Compute from a parameter when it is made."""
+    """Computes a value from a parameter in its constructor."""
 
     interval: float = 1.0
 

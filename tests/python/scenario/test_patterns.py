@@ -101,7 +101,7 @@ def test_an_escaped_text_matches_itself_only(text: str) -> None:
 
 
 def _matches_slowly(pattern: str, path: str) -> bool:
-    """Wildcards by their definition, one character after the other."""
+    """Match wildcards by their definition, one character after the other."""
     if not pattern:
         return not path
     if pattern.startswith("**"):
@@ -114,9 +114,9 @@ def _matches_slowly(pattern: str, path: str) -> bool:
 
 
 def steps_of(pattern: str, path: str) -> int:
-    """Lines of Python executed, and calls of regular expressions, while a pattern is compared with a path."""
+    """Return the lines of Python and the calls of regular expressions in a comparison of pattern and path."""
     compiled = compile_pattern(pattern)
-    compiled.matches("")  # it keeps its expressions
+    compiled.matches("")  # it caches its expressions
     steps = 0
 
     def count(frame: FrameType, event: str, _: object) -> Callable[..., Any]:
@@ -173,7 +173,7 @@ def test_wildcards_mean_what_their_definition_says(pattern: str, path: str) -> N
         ("*.numUavs", ["*", "numUavs"]),
         ("*.uavs[0..2].**.power", ["*", "uavs[0..2]", "**.power"]),
         ("*.{a-c}.x", ["*", "{a-c}", "x"]),
-        (r"*.a\.b", ["*", "a", "b"]),  # an escaped dot is a dot all the same
+        (r"*.a\.b", ["*", "a", "b"]),  # an escaped dot is still a dot
         (r"*.a\*", ["*", r"a\*"]),
         ("**.power", None),
         ("*.**", None),

@@ -1,4 +1,4 @@
-"""Files of protocols as modules, the files beside them, and their classes in other processes."""
+"""Protocol files as modules, their neighbor files, and their classes in other processes."""
 
 import gc
 import importlib
@@ -250,7 +250,7 @@ def scenarios(folder: Any) -> list[Scenario]:
 
 
 def numbers(scenario: Scenario) -> tuple[set[type], list[Any]]:
-    """The classes of the UAVs, and what all nodes count in a run."""
+    """Return the classes of the UAVs, and the counts of all nodes in a run."""
     classes = {node.protocol for node in scenario.nodes[:3]}
     return classes, [node.tracked_variables["number"] for node in run(scenario).nodes]
 

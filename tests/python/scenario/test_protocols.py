@@ -1,4 +1,4 @@
-"""Classes that `protocol.class` names: finding them, and whether they can be called as protocols are."""
+"""Classes named by `protocol.class`: finding them, and checking that they are callable as protocols."""
 
 import sys
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Files without an end or a writer: each is refused at once, with the line that names it."""
+"""Files without an end or a writer: each is rejected at once, with its line."""
 
 import os
 import time

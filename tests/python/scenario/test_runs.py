@@ -13,7 +13,7 @@ from python.scenario.conftest import BASE
 
 
 def error_at(folder: Any, added: str) -> ConfigError:
-    """The error of the base with some lines more, which begin at line 6."""
+    """Return the error of the base with additional lines, which start at line 6."""
     with pytest.raises(ConfigError) as error:
         folder.load(added)
     return error.value
@@ -54,7 +54,7 @@ def test_a_run_beyond_all_combinations_says_how_many_there_are(folder: Any) -> N
 
 
 def values_of(folder: Any, added: str) -> list[tuple[tuple[str, ...], int]]:
-    """The values of the iteration variables, and the repetition, run by run."""
+    """Return the values of the iteration variables, and the repetition, for each run."""
     folder.load(added)
     return [(tuple(each.iterations.values()), each.repetition) for each in load_scenarios(folder.ini)]
 
@@ -342,7 +342,7 @@ BOATS = '**.boats[*].protocol.class = "protocols.py:Sensor"\n'
 
 
 def unread(folder: Any, added: str, *overrides: str, runs: str | None = None) -> list[UnreadVariables]:
-    """Those of the base with some lines more; each run says the same."""
+    """Return the unread variables of the base with additional lines; they are the same for each run."""
     folder.write("test.ini", BASE + added)
     first, *others = load_scenarios(folder.ini, runs=runs, overrides=overrides)
     assert all(other.unread_variables == first.unread_variables for other in others)

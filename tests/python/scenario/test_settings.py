@@ -210,4 +210,4 @@ def test_others_may_be_wrong_with_another_seed(text: str) -> None:
 def test_where_other_lines_count_all_seeds_have_to_be_tried() -> None:
     assert not is_right_for_all_seeds(
         "uniform(0m, 1km)", coordinate()
-    )  # as for an obstacle, which has to be higher than low
+    )  # for example, of an obstacle, whose top must be above its bottom

@@ -24,7 +24,7 @@ def entry(text: str, key: str = "*.x.label", line: int = 7) -> Entry:
 
 
 def named(*texts: str) -> tuple[list[str], list[IterationVariable]]:
-    """Entries of different keys, from line 1 on: their texts afterwards, and the variables."""
+    """Return the values of entries with different keys, from line 1 on, and their variables."""
     entries, variables = name_iterations(
         entry(text, f"**.p{line}", line) for line, text in enumerate(texts, start=1)
     )
@@ -203,7 +203,7 @@ VARIABLES = ("seedset", "experiment", "measurement", "replication")
 
 
 def error_at(folder: Any, added: str) -> ConfigError:
-    """The error of the base with some lines more, which begin at line 6."""
+    """Return the error of the base with additional lines, which start at line 6."""
     with pytest.raises(ConfigError) as error:
         folder.load(added)
     return error.value
@@ -293,4 +293,4 @@ def test_so_is_what_a_value_becomes() -> None:
 def test_a_long_number_takes_little_time() -> None:
     started_s = time.process_time()
     named(f"${{{'1' * 300_000}x, 2}}")
-    assert time.process_time() - started_s < 5  # it was minutes
+    assert time.process_time() - started_s < 5  # it took minutes

@@ -273,7 +273,7 @@ def test_the_clock_cannot_be_set_to_the_end_of_all_times():
 
 
 class AgainstASortedList(RuleBasedStateMachine):
-    """Whatever is done to a loop, it behaves as a list sorted by (time, order of scheduling)."""
+    """For all sequences of operations, a loop behaves like a list sorted by (time, order of scheduling)."""
 
     def __init__(self):
         super().__init__()

@@ -110,7 +110,7 @@ def test_a_table_is_as_wide_as_its_cells():
 
 @pytest.fixture
 def two(root, tmp_path):
-    """Two formatters that log to a file each, and a function that reads a file."""
+    """Return two formatters that log to a file each, and a function that reads a file."""
     formatters = [setup_simulation_formatter(False, tmp_path / name) for name in ("first", "second")]
     yield *formatters, lambda name: (tmp_path / name).read_text()
     for formatter in formatters:

@@ -1,4 +1,4 @@
-"""Many simulations in one process: what one of them used is gone when it is over, however it ended."""
+"""Many simulations in one process: each frees its resources at its end, for all kinds of ends."""
 
 import gc
 import logging
@@ -19,7 +19,7 @@ from python.quiet_protocol import Quiet
 
 
 class Busy(Quiet):
-    """Uses a bit of everything; `failing` makes it fail at its third timer."""
+    """Uses several features; `failing` makes it fail at its third timer."""
 
     failing = False
 
@@ -111,7 +111,7 @@ def test_no_protocol_stays(use):
 
 
 def test_a_thousand_simulations_leave_no_memory_behind():
-    """After the first hundred, which fill caches, the others may add less than 50 bytes each."""
+    """The first hundred fill caches. Each of the others may add less than 50 bytes."""
     uses = [run_to_the_end, fail, stop_early, drop_half_way, never_begin]
 
     def use_many(count):

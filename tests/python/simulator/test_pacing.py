@@ -1,4 +1,4 @@
-"""Simulations that keep to the wall clock, and what is written of it."""
+"""Simulations in real time, and their timing reports."""
 
 import asyncio
 import csv

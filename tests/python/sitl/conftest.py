@@ -1,4 +1,4 @@
-"""Autopilots in a folder that a test can look into, on simulated time."""
+"""Autopilots on simulated time, in a directory that a test can inspect."""
 
 import pytest
 
@@ -8,13 +8,13 @@ from python.sitl.on_simulated_time import REFERENCE, nodes
 
 @pytest.fixture
 def own_folder(tmp_path, monkeypatch):
-    """Where autopilots have their files, for this test alone."""
+    """Directory of the autopilots' files, for this test alone."""
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
 
 
 @pytest.fixture
 def flights_of(own_folder):
-    """`flights_of(program, start, ...)`: begun, and ended after the test."""
+    """`flights_of(program, start, ...)`: started flights, which end after the test."""
     made = []
 
     def make(program, *starts, timeout_s=20.0, parameters=None, **settings):

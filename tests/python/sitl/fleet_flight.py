@@ -1,4 +1,4 @@
-"""One vehicle of a fleet, on the wall's time, and steps that it does."""
+"""One vehicle of a fleet in real time, and its steps."""
 
 import asyncio
 
@@ -20,12 +20,12 @@ async def launched(fleet, identifier=0, timeout_s=20):
 
 
 def running(fleet):
-    """The ids of its processes."""
+    """Return the ids of its processes."""
     return [process.pid for process in fleet._processes if process.is_running]
 
 
 def fly(fleet, steps):
-    """Do the steps, a coroutine function of a vehicle that has been met."""
+    """Run the steps, a coroutine function of a connected vehicle."""
 
     async def run():
         vehicle, connection = await launched(fleet)

@@ -1,4 +1,4 @@
-"""What tests of flights on simulated time share."""
+"""Shared code of tests of flights on simulated time."""
 
 import pytest
 
@@ -9,7 +9,7 @@ REFERENCE = (-15.84, -47.92, 1000.0)
 
 
 def nodes(program, *starts, **settings):
-    """Nodes 0, 1, ... that the toy flies, called "vehicle 0" and so on."""
+    """Return nodes 0, 1, ... flown by the toy, named "vehicle 0" and so on."""
     return [
         AutopilotNode(number, f"vehicle {number}", start, program=program, user=None, **settings)
         for number, start in enumerate(starts)
@@ -17,7 +17,7 @@ def nodes(program, *starts, **settings):
 
 
 def flown(flights, seconds, begin=0.0, step=0.01):
-    """The places of vehicle 0 at each step."""
+    """Return the positions of vehicle 0 at each step."""
     track = []
     for number in range(1, round(seconds / step) + 1):
         flights.advance_to(begin + number * step)
@@ -26,7 +26,7 @@ def flown(flights, seconds, begin=0.0, step=0.01):
 
 
 def failure_of(flights_of, program, **settings):
-    """What ends a flight of one vehicle."""
+    """Return the exception that ends a flight of one vehicle."""
     with pytest.raises(SitlError) as caught:
         flown(flights_of(program, (0.0, 0.0, 10.0), **settings), 5)
     return str(caught.value)

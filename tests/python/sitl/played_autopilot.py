@@ -1,4 +1,4 @@
-"""An autopilot in lock-step that the test plays: it says by UDP what its motors are to do."""
+"""An autopilot in lock-step, played by the test: it sends motor commands by UDP."""
 
 import json
 import socket
@@ -13,7 +13,7 @@ IDLE = [1000] * 16
 
 
 class Process:
-    """Of an autopilot that lives."""
+    """Process of a running autopilot."""
 
     is_running = True
 
@@ -25,7 +25,7 @@ class Process:
 
 
 class Played:
-    """The autopilot's side, and ours."""
+    """The autopilot's side of the link, and the simulation's."""
 
     def __init__(self, name="vehicle 0", rate_hz=400):
         self.ours = LockStepAutopilot(MavlinkLink(name), Quadcopter())

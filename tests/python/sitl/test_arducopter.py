@@ -19,7 +19,7 @@ def _nothing_else_is_named(monkeypatch):
 
 @pytest.fixture
 def checkout(tmp_path):
-    """A folder as ArduPilot's build leaves it."""
+    """Return a directory as left by ArduPilot's build."""
     program = tmp_path / "build/sitl/bin/arducopter"
     program.parent.mkdir(parents=True)
     program.touch(mode=0o755)

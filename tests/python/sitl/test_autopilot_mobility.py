@@ -1,4 +1,4 @@
-"""Nodes that autopilots fly, beside nodes without mass; the autopilots are played."""
+"""Nodes with autopilots next to nodes without mass; the tests play the autopilots."""
 
 import gc
 
@@ -55,7 +55,7 @@ def test_a_flown_node_is_where_its_vehicle_is_and_the_other_flies_without_mass(f
 
 
 def test_autopilots_are_one_update_ahead(flights):
-    """Of what an order at 0.2 s changes nothing is seen before: the vehicle has flown up to there already."""
+    """A command at 0.2 s has no effect before: the vehicle has already flown up to there."""
     built(flights).start_simulation()
     assert flights.diary[:2] == ["begin", pytest.approx(0.1)]
     assert flights.diary[-1] == "close"

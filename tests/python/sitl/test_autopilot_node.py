@@ -1,4 +1,4 @@
-"""The world that an autopilot on simulated time flies in."""
+"""The environment of an autopilot on simulated time."""
 
 import pytest
 

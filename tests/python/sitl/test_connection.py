@@ -41,7 +41,7 @@ def free_port(kind=socket.SOCK_DGRAM):
 
 
 async def exchange(address, vehicle):
-    """Connect; get a message of the vehicle, a function of a link that is connected, and send one to it."""
+    """Connect; receive a message of the vehicle, a function of a connected link, and send one to it."""
     link = MavlinkLink("node 0")
     connection = await connect(link, address, 5)
     try:
@@ -57,7 +57,7 @@ def test_udpin_listens_and_answers_to_where_messages_come_from():
     async def vehicle(link):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as udp:
             udp.setblocking(False)
-            link.send(HEARTBEAT)  # To nobody, as yet.
+            link.send(HEARTBEAT)  # without a receiver so far
             udp.sendto(packed(), ("127.0.0.1", port))
             assert await link.wait_for(any_message, 5) is not None
             link.send(HEARTBEAT)
@@ -123,7 +123,7 @@ def test_a_connection_that_is_closed_while_it_is_accepted_is_not_made():
     connection = StreamConnection(MavlinkLink("node 0"))
 
     def accept():
-        asyncio.get_running_loop().call_soon(connection.close)  # asyncio makes the connection after that
+        asyncio.get_running_loop().call_soon(connection.close)  # asyncio makes the connection afterwards
         return connection.accept()
 
     async def vehicle():
@@ -140,7 +140,7 @@ def test_a_connection_that_is_closed_while_it_is_accepted_is_not_made():
 
 @pytest.fixture
 def orders():
-    """What was sent to the vehicle."""
+    """Return the messages sent to the vehicle."""
     return asyncio.Queue()
 
 
@@ -160,7 +160,7 @@ def station():
 
 
 def joined(link, port, steps):
-    """Do the steps, a coroutine function of the way between a link and a port."""
+    """Run the steps, a coroutine function of the path between a link and a port."""
 
     async def run():
         way = await open_ground_station(link, "127.0.0.1", port)
@@ -220,7 +220,7 @@ def test_a_ground_station_may_come_later(link):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as station:
             station.bind(address)
             station.settimeout(5)
-            for _ in range(2):  # the first one learns that nobody was there
+            for _ in range(2):  # the first one notices that the peer has left
                 link.feed(b"late")
             return station.recv(1000)
 

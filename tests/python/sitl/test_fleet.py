@@ -1,4 +1,4 @@
-"""Autopilots without a simulation: what integrates them somewhere else builds on this."""
+"""Autopilots without a simulation, for integrations elsewhere."""
 
 import asyncio
 import gc
@@ -64,7 +64,7 @@ def test_the_path_of_its_folder_may_have_a_comma(toy_copter, tmp_path, monkeypat
 
 
 def test_a_launch_that_is_given_up_closes_its_connection(toy_copter, monkeypatch):
-    """Otherwise it is explained, when it breaks, by files that are gone."""
+    """Otherwise the explanation of its later failure would use deleted files."""
     fleet, link = new_fleet(toy_copter()), MavlinkLink("vehicle 0")
 
     async def fail_once_it_is_made(connection, process, timeout_s):

@@ -1,4 +1,4 @@
-"""Mobility commands for the vehicle of an autopilot."""
+"""Mobility commands for a vehicle with an autopilot."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Vehicles on simulated time, with the toy in ArduCopter's place."""
+"""Vehicles on simulated time; the toy replaces ArduCopter."""
 
 import gc
 import json
@@ -173,7 +173,7 @@ mavlink = load_dialect()
 
 @pytest.fixture
 def flight_from():
-    """`flight_from(start, ...)`: one that is not started, and closed after the test."""
+    """`flight_from(start, ...)`: a flight that is not started, and closed after the test."""
     with ExitStack() as ends:
 
         def make(start, program=None, on_text=None, **settings):
@@ -186,7 +186,7 @@ def flight_from():
 
 
 def test_x_and_y_count_from_the_origin_and_heights_from_the_ground(flight_from):
-    """The vehicle takes off below its start, and its physics count from there."""
+    """The vehicle takes off below its start, which is the origin of its physics."""
     flight = flight_from((100.0, 200.0, 30.0))
     flight.autopilot.body.position_m = (1.0, -2.0, -5.0)
     assert flight.position == (101.0, 198.0, 5.0)
@@ -236,7 +236,7 @@ def test_what_its_autopilot_says_is_told_with_its_name(flight_from):
 
 
 def test_the_wind_of_the_parameters_blows(toy_copter, flights_of):
-    """The toy does not know of it, and is off by what its gains leave."""
+    """The toy does not model wind, and its control has a steady error."""
     parameters = {"SIM_WIND_SPD": 1.0, "SIM_WIND_DIR": 90.0}
     flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), parameters=parameters)
     north, east, _ = flights.position(0)

@@ -1,4 +1,4 @@
-"""One autopilot in lock-step, here played by the test: what is said and answered by UDP."""
+"""One autopilot in lock-step, played by the test: its messages by UDP, and the answers."""
 
 import asyncio
 import gc
@@ -121,7 +121,7 @@ pytestmark = pytest.mark.usefixtures("own_folder")
 
 @pytest.fixture
 def group_of():
-    """`group_of(played, ...)`: a group of these."""
+    """`group_of(played, ...)`: a group of these autopilots."""
     with ExitStack() as ends:
 
         def make(*played):
@@ -165,7 +165,7 @@ def test_it_tells_when_nobody_said_anything(group_of):
 
 
 def test_a_simulation_that_takes_its_time_changes_nothing(toy_copter, flights_of):
-    """Meanwhile the autopilot asks again and again for its next step."""
+    """In the meantime the autopilot repeats its request for the next step."""
 
     def flight(wrongs, pause_s):
         flights = flights_of(toy_copter(wrongs), (0.0, 0.0, 10.0))
@@ -198,7 +198,7 @@ def _interrupt(timeout_s):
 
 
 def test_a_step_that_was_interrupted_goes_on_where_it_was(toy_copter, flights_of, monkeypatch):
-    """By Ctrl-C while autopilots are at work: none of them is answered twice."""
+    """Ctrl-C during the autopilots' computation: no autopilot is answered twice."""
 
     def flight(*, interrupted):
         flights = flights_of(toy_copter(), (0.0, 0.0, 10.0), (0.0, 20.0, 10.0))

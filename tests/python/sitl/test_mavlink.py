@@ -15,7 +15,7 @@ mavlink = load_dialect()
 
 
 class Sender:
-    """Makes the bytes of one component's messages."""
+    """Encodes the messages of one component."""
 
     def __init__(self, system=1, component=1):
         self.codec = mavlink.MAVLink(None, srcSystem=system, srcComponent=component)

@@ -1,4 +1,4 @@
-"""Who has a vehicle do what is wanted of it last; the vehicle is played."""
+"""The pilot makes a vehicle follow the latest command; the test plays the vehicle."""
 
 from types import SimpleNamespace
 
@@ -10,7 +10,7 @@ from gradysim.sitl.pilot import Pilot
 
 
 class Vehicle:
-    """Writes down its orders."""
+    """Logs its commands."""
 
     def __init__(self, loop):
         self.loop = loop
@@ -27,7 +27,7 @@ class Vehicle:
         return await news
 
     def tell(self, point, *, landed=False, kind="GLOBAL_POSITION_INT"):
-        """Say where it is, (x, y, z) in meters; then the pilot has its turn."""
+        """Report its position, (x, y, z) in meters; then give the pilot its turn."""
         self.position = place_of(point)
         self.is_in_air, self.is_on_ground = not landed, landed
         message = SimpleNamespace(get_type=lambda: kind)
@@ -76,7 +76,7 @@ def vehicle(loop):
 
 @pytest.fixture
 def pilot(loop, vehicle):
-    """One in flight, who has had its first speed confirmed."""
+    """Return a pilot in flight, whose first speed is confirmed."""
     return attending(loop, vehicle, (0.0, 0.0, 10.0))
 
 

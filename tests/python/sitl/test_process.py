@@ -95,7 +95,7 @@ def test_stopping_what_has_ended_does_nothing(start):
 
 
 def test_a_command_runs_without_the_rights_of_root():
-    """Root runs it as the user wanted, anybody else as himself; its parent belongs to the same user."""
+    """Root runs it as the configured user, other users as themselves. Its parent belongs to the same user."""
     user = user_for("nobody")
     expected = "nobody" if os.geteuid() == 0 else getpass.getuser()
     command = command_as(user, ["sh", "-c", "id -un; kill -0 $PPID && echo may signal its parent"])
@@ -128,7 +128,7 @@ os.kill(os.getpid(), signal.SIGKILL)
 
 @pytest.mark.parametrize("wanted", ["nobody", None])
 def test_it_ends_with_its_parent(wanted):
-    """What it holds open, here the standard error of all, is closed then."""
+    """Its open files, here the standard error of all, are closed then."""
     command = command_as(user_for(wanted), ["sh", "-c", "trap '' HUP TERM PIPE; echo; exec sleep 60"])
     subprocess.run([sys.executable, "-c", PARENT, *command], stderr=subprocess.PIPE, check=False, timeout=20)
 
@@ -164,7 +164,7 @@ def _in_a_folder_of_its_own(tmp_path, monkeypatch):
 
 @pytest.fixture
 def owner(tmp_path):
-    """Another process with a folder, and that folder."""
+    """Return another process with a directory, and that directory."""
     process = subprocess.Popen(
         [sys.executable, "-c", OWNER],
         env={**os.environ, "TMPDIR": str(tmp_path), "PYTHONPATH": os.pathsep.join(sys.path)},

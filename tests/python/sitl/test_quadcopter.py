@@ -1,4 +1,4 @@
-"""The physics of the vehicle: what its motors do to it."""
+"""Physics of the vehicle: the effect of its motors."""
 
 import math
 
@@ -13,7 +13,7 @@ HIGH_M = -100.0
 
 
 def throttle_for(share):
-    """The throttle that makes this share of the greatest thrust."""
+    """Return the throttle for this ratio of the largest thrust."""
     e = quadcopter.THRUST_EXPO
     return (math.sqrt((1 - e) ** 2 + 4 * e * share) - (1 - e)) / (2 * e)
 
@@ -104,8 +104,8 @@ MORE, LESS = HOVER * 1.02, HOVER * 0.98
 @pytest.mark.parametrize(
     ("throttles", "axis"),
     [
-        ([LESS, MORE, MORE, LESS], 0),  # the left side up: it rolls to the right
-        ([MORE, LESS, MORE, LESS], 1),  # the front up
+        ([LESS, MORE, MORE, LESS], 0),  # left side up: it rolls to the right
+        ([MORE, LESS, MORE, LESS], 1),  # front side up
         ([MORE, MORE, LESS, LESS], 2),  # counterclockwise propellers turn it clockwise
     ],
 )

@@ -1,6 +1,6 @@
 """Flights with ArduPilot itself: `GRADYSIM_ARDUPILOT=path python -m pytest -m autopilot`.
 
-Not among the tests that are run otherwise: nobody can be expected to have one, and each takes half a minute.
+Not among the usual tests: few machines have ArduPilot, and each test takes half a minute.
 """
 
 import csv
@@ -107,7 +107,7 @@ def test_on_simulated_time_flights_are_exact_and_repeatable():
 
 
 def test_nobody_flies_it_by_the_port_for_remote_control():
-    """The port is open to all: 5501 and ten more for each instance. Channel 5 low is the mode STABILIZE."""
+    """The port is open to all: 5501, plus ten for each instance. Channel 5 low is the mode STABILIZE."""
     undisturbed = on_simulated_time()[0].track
     has_landed = threading.Event()
 
@@ -133,7 +133,7 @@ def test_on_simulated_time_it_stands_in_the_wind():
 
 
 class OnOrder(Tracked):
-    """Goes from place to place, by times."""
+    """Flies to places at given times."""
 
     targets = ((0.0, (20, 0, -1)), (300.0, (20, 15, 0)), (900.0, (0, 0, 10)))
 
@@ -148,7 +148,7 @@ class OnOrder(Tracked):
 
 
 def test_on_simulated_time_it_stands_on_the_ground_for_long_and_flies_on():
-    """Told only of targets, ArduCopter loses its way after ten minutes there, and does not take off."""
+    """With targets only, ArduCopter loses its position after ten minutes, and does not take off."""
     configuration = ArdupilotMobilityConfiguration(reference_coordinates=(0, 0, 0))
     builder = SimulationBuilder(SimulationConfiguration(duration=940))
     builder.add_handler(TimerHandler()).add_handler(ArdupilotMobilityHandler(configuration))

@@ -1,4 +1,4 @@
-"""From what a scenario says of its nodes to autopilots that fly them."""
+"""From the nodes of a scenario to the autopilots that fly them."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""A vehicle's steps, one by one: those of the toy, and answers that are made up here."""
+"""Steps of a vehicle, one by one: with the toy, and with made-up answers."""
 
 import asyncio
 import json
@@ -52,14 +52,14 @@ def test_a_message_that_seems_to_be_refused_is_asked_for_again(toy_copter):
 
 
 class Played:
-    """An autopilot's side of a link: `says` what it is told to, and keeps what it gets."""
+    """Autopilot's side of a link: `says` what the test sets, and records what it gets."""
 
     def __init__(self):
         self.link = MavlinkLink("vehicle 0")
         self.link.send_bytes = self._take
         self.codec = mavlink.MAVLink(None, srcSystem=1, srcComponent=1)
         self.got = []
-        self.answers = []  # one for each message that it gets, as long as there are some
+        self.answers = []  # one for each received message, as long as there are some
 
     def says(self, *messages):
         for message in messages:
@@ -102,7 +102,7 @@ def test_neither_the_answer_to_another_command_nor_that_of_one_under_way_is_its_
 
 
 def test_commands_that_are_sent_again_count_their_tries(played, vehicle, monkeypatch):
-    """By that the autopilot knows that it may have obeyed before."""
+    """The count tells the autopilot that it may have obeyed before."""
     monkeypatch.setattr("gradysim.sitl.vehicle._ANSWER_S", 0.01)
     played.answers = [(), (), (ack(SPEED),)]
     asyncio.run(vehicle.set_speed(3))

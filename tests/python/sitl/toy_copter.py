@@ -1,29 +1,29 @@
 #!/usr/bin/env python3
-"""A small vehicle that speaks MAVLink as ArduCopter's SITL does, for tests: started with the same options.
+"""A small vehicle that speaks MAVLink like ArduCopter's SITL, for tests. It takes the same options.
 
-A point without mass that flies straight at its speed, on a clock of its own that runs `--speedup` times as
-fast as the wall's; with `--model JSON:...`, it steers the physics that it is told of, on their clock. What it
-does wrong is in the file `misbehavior.json` beside it, by node id:
+It is a point without mass that flies straight at its speed. Its clock runs `--speedup` times as fast as wall
+time. With `--model JSON:...` it steers external physics, on their clock. Its faults are in the file
+`misbehavior.json` next to it, by node id:
 
     {"1": {"refuse_arming": true}}
 
-What it does at its end is written to a file beside it, `final_1.json`.
+Its final state is written to a file next to it, `final_1.json`.
 
-refuse_arming   every arming is refused, with a reason
-no_fix          it never knows where it is
-silent          it connects and says nothing
-deaf            commands have no answer
+refuse_arming   every arming is rejected, with a reason
+no_fix          it never has a position
+silent          it connects and sends nothing
+deaf            commands are not answered
 loses_first     the first of each command has no effect and no answer
-dies_at         it ends, with status 7: at "take-off", or so many seconds (its own) after SIM_SPEEDUP
-leaves_at       it switches to mode LAND so many seconds after, with a reason
-hangs_at        it goes on so long, and then sends nothing
-old             it knows neither SET_MESSAGE_INTERVAL nor DO_SET_MODE, as ArduCopter 3
+dies_at         it exits with status 7: at "take-off", or this many seconds (its own) after SIM_SPEEDUP
+leaves_at       it switches to mode LAND this many seconds after, with a reason
+hangs_at        it continues this many seconds, and then sends nothing
+old             it supports neither SET_MESSAGE_INTERVAL nor DO_SET_MODE, like ArduCopter 3
 stubborn        it ignores SIGTERM
-exits           it prints a line and ends with status 3 before it connects
-gives_up        it connects, prints a line and does nothing any more, whatever happens
-slow            its clock goes at half the pace
-repeats         it asks for its next step again and again, all 50 ms of wall time
-refuses_first   the first wish for a message is refused, as if that were the answer to somebody else's
+exits           it prints a line and exits with status 3 before it connects
+gives_up        it connects, prints a line and then does nothing
+slow            its clock runs at half the pace
+repeats         it repeats its request for the next step, every 50 ms of wall time
+refuses_first   the first request for a message is rejected, as if the answer were for another program
 """
 
 import json
@@ -42,7 +42,7 @@ def end_once(number, frame):
 
 
 def write_whole(file, state):
-    """Who reads it meanwhile, or after the process was killed, finds no half of it."""
+    """Write a file as a whole, for readers at the same time, or after a kill."""
     draft = file.with_suffix(".draft")
     draft.write_text(json.dumps(state))
     draft.replace(file)
@@ -81,7 +81,7 @@ def main():
     finally:
         try:
             write_whole(final, copter.state())
-        finally:  # again: the signal may come between the end of the connection and that of the writing
+        finally:  # again: the signal may come between the end of the connection and the end of the write
             write_whole(final, copter.state())
 
 

@@ -1,4 +1,4 @@
-"""The vehicle of `toy_copter.py` that waits for its physics at each step."""
+"""The vehicle of `toy_copter.py` in lock-step with its physics."""
 
 import json
 import math
@@ -13,7 +13,7 @@ from gradysim.sitl import quadcopter as body
 
 
 class LockStepCopter(Copter):
-    """It knows where it is, and steers like a cautious beginner."""
+    """Knows its position, and steers with a simple controller."""
 
     RATE_HZ = 100
 
@@ -50,18 +50,20 @@ class LockStepCopter(Copter):
         north, east, down = self.felt["position"]
         self.position = [north, east, -down]
         assert self.felt["timestamp"] > self.now
-        self.now = self.felt["timestamp"] - 1 / self.RATE_HZ  # to which `advance` adds a step
+        self.now = self.felt["timestamp"] - 1 / self.RATE_HZ  # `advance` adds a step
 
     def move(self, dt):
-        """The physics do."""
+        """Do nothing: the physics move it."""
 
     def command(self, message):
-        if message.command == mavlink.MAV_CMD_DO_CHANGE_SPEED:  # the last one before the simulation starts
+        if (
+            message.command == mavlink.MAV_CMD_DO_CHANGE_SPEED
+        ):  # the last command before the simulation starts
             self.begun = min(self.begun, self.now)
         return super().command(message)
 
     def pulses(self):
-        """Microseconds: the throttles that turn it to where it is to accelerate to."""
+        """Return pulse widths in microseconds: throttles that turn it towards its target acceleration."""
         if not self.armed or self.landed or (self.target is None and self.now >= self.until):
             return [1000 + 450 * self.armed * (self.position[2] > 0.5)] * 4
         wanted, drag = self.wanted_velocity(), body.DRAG_KGPS / body.MASS_KG

@@ -1,4 +1,4 @@
-"""The vehicle of `toy_copter.py`: a point without mass that flies straight, on a clock of its own."""
+"""The vehicle of `toy_copter.py`: a point without mass that flies straight, on its own clock."""
 
 import contextlib
 import math
@@ -13,7 +13,7 @@ from pymavlink.dialects.v20 import ardupilotmega as mavlink
 GUIDED, LAND = 4, 9
 EARTH_RADIUS_M = 6_371_000.0
 FIX_S = 2.0
-UNKNOWN = "NONESUCH"  # a parameter that it does not know
+UNKNOWN = "NONESUCH"  # a parameter that does not exist
 
 
 def place(latitude, longitude, north, east):
@@ -24,7 +24,7 @@ def place(latitude, longitude, north, east):
 
 
 def connected(kind, address):
-    """A socket, connected to an address; "tcpserver" waits there for the other side to do so."""
+    """Return a socket connected to an address; "tcpserver" waits there for the other side to connect."""
     if kind == "udpclient":
         udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         udp.connect(address)
@@ -40,7 +40,7 @@ def connected(kind, address):
 
 
 class Copter:
-    """Of no mass, on a clock of its own."""
+    """Vehicle without mass, on its own clock."""
 
     def __init__(self, options, wrongs):
         self.wrongs = wrongs
@@ -57,8 +57,8 @@ class Copter:
         self.position = [0.0, 0.0, 0.0]  # north, east, up of home; m
         self.velocity = [0.0, 0.0, 0.0]
         self.target = None
-        self.until = 0.0  # when a velocity is dropped
-        self.landed = True  # as it believes; then it obeys nothing but take-off and velocities upwards
+        self.until = 0.0  # end of a velocity
+        self.landed = True  # its own view; then it obeys only take-off and upward velocities
         self.speed = 5.0
         self.mode = 0
         self.armed = False
@@ -78,11 +78,11 @@ class Copter:
             self.wall = wall
 
     def listen(self, wait_s):
-        """Obey what comes by MAVLink; whether there is still somebody."""
+        """Obey incoming MAVLink messages; return whether the connection is open."""
         readable, _, _ = select.select([self.socket], [], [], wait_s)
         try:
             data = self.socket.recv(65536) if readable else None
-        except ConnectionResetError:  # the other side left while telemetry was on its way
+        except ConnectionResetError:  # the other side left during telemetry
             data = b""
         for message in self.codec.parse_buffer(data) or () if data else ():
             self.obey(message)

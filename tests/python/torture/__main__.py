@@ -1,6 +1,6 @@
-"""`make torture MINUTES=20`: does harm to gradysim in turn, and prints what was lost.
+"""`make torture MINUTES=20`: injects faults of all kinds in turn, and prints what was lost.
 
-The short tests do the same a few times. Each kind of harm is a module here with a function `once`.
+The short tests do the same a few times. Each kind of fault is a module here with a function `once`.
 """
 
 import sys
@@ -18,7 +18,7 @@ from python.torture.kinds import KINDS, Once
 
 
 def harm(once: Once, seed: int) -> tuple[int, str]:
-    """Do harm once. Return how often, and what was lost."""
+    """Inject a fault once. Return how often, and what was lost."""
     with tempfile.TemporaryDirectory() as folder:
         try:
             return once(Random(seed), Path(folder)), ""
@@ -27,7 +27,10 @@ def harm(once: Once, seed: int) -> tuple[int, str]:
 
 
 def main(minutes: float) -> int:
-    """Do harm of all kinds in turn, and print a table. Return the exit code: 1 if something was lost."""
+    """Inject faults of all kinds in turn, and print a table.
+
+    Return the exit code: 1 if something was lost.
+    """
     seeds = SystemRandom()
     done: Counter[str] = Counter()
     failures: Counter[str] = Counter()

@@ -1,4 +1,4 @@
-"""Hostile viewers of a run: it ends all the same, with the same result, and leaves no thread."""
+"""Hostile viewers of a run: it still ends, with the same result, and leaves no thread."""
 
 import contextlib
 import logging
@@ -45,7 +45,7 @@ class Talker(IProtocol):
 """
 
 _END_S = 30.0
-"""Wall time within which a run ends that takes a tenth of a second when nobody watches, in seconds."""
+"""Time limit for a run that takes a tenth of a second without viewers, in seconds of wall time."""
 
 MESSAGES = (
     '{"interaction": "pause/resume"}',
@@ -58,17 +58,17 @@ MESSAGES = (
 
 
 class Client:
-    """A connection that does harm, and stays until `leave`.
+    """A hostile connection, which stays until `leave`.
 
     Attributes:
-        may_stay: Whether the run ends while it is there: it has not paused it.
+        may_stay: Whether the run ends while it is connected; false if it has paused the run.
     """
 
     def __init__(self, random: Random, address: str) -> None:
         url = urlsplit(address)
         self.may_stay = True
         self._stack = contextlib.ExitStack()
-        with contextlib.suppress(OSError, WebSocketException):  # the run may have ended, or refuse it
+        with contextlib.suppress(OSError, WebSocketException):  # the run may have ended, or reject it
             if random.random() < 0.5:
                 self._raw(random, str(url.hostname), url.port or 0)
             else:
@@ -88,13 +88,13 @@ class Client:
             viewer.socket.shutdown(socket.SHUT_RDWR)
 
     def leave(self) -> None:
-        """Close the connection, as far as there is one."""
+        """Close the connection, if there is one."""
         with contextlib.suppress(OSError, WebSocketException):
             self._stack.close()
 
 
 def besieged(random: Random, run: PrototypeRun, address: Callable[[], str]) -> int:
-    """Let a run go on while clients come and go; return how many there were."""
+    """Run while clients connect and leave; return their number."""
     thread = threading.Thread(target=run.execute, daemon=True)
     thread.start()
     clients: list[Client] = []
@@ -115,7 +115,7 @@ def besieged(random: Random, run: PrototypeRun, address: Callable[[], str]) -> i
 
 
 def once(random: Random, folder: Path) -> int:
-    """Show a run to hostile viewers; return how many there were."""
+    """Show a run to hostile viewers; return their number."""
     (folder / "talker.py").write_text(_PROTOCOL)
     (folder / "talk.ini").write_text(_INI)
     (scenario,) = load_scenarios(folder / "talk.ini")
@@ -132,7 +132,7 @@ def once(random: Random, folder: Path) -> int:
 
 
 def watched_live(random: Random, scenario: Any) -> tuple[int, Any]:
-    """Serve it as `gradysim view` does."""
+    """Serve it like `gradysim view`."""
     view = LiveView()
     try:
         run = PrototypeRun(scenario, replay=view)
@@ -143,7 +143,7 @@ def watched_live(random: Random, scenario: Any) -> tuple[int, Any]:
 
 
 def watched_by_handler(random: Random, scenario: Any) -> tuple[int, Any]:
-    """Serve it as a VisualizationHandler does."""
+    """Serve it like a VisualizationHandler."""
     handler = VisualizationHandler(VisualizationConfiguration(host="127.0.0.1", port=0, update_rate=0.001))
 
     def address() -> str:

@@ -25,16 +25,16 @@ _ONE_RUN = ("-r", "3", "--set", "repeat=2")
 
 
 class Fault:
-    """Takes the place of a function, and counts its calls in each process."""
+    """Replaces a function, and counts its calls in each process."""
 
     def __init__(self, number: int, kills: bool, code: int) -> None:
-        """Do harm at the call of that number, counted from 1 over all functions."""
+        """Fail at the call of that number, counted from 1 over all functions."""
         self._left = number
         self._kills = kills
         self._code = code
 
     def before(self, function: Callable[..., Any]) -> Callable[..., Any]:
-        """Return what does harm in place of the call."""
+        """Return a function that fails before the call."""
 
         def called(*arguments: Any, **options: Any) -> Any:
             self._left -= 1
@@ -45,7 +45,7 @@ class Fault:
         return called
 
     def in_the_middle(self, write_text: Callable[..., Any]) -> Callable[..., Any]:
-        """Return what does harm after half of the text."""
+        """Return a function that fails after half of the text."""
 
         def called(path: Path, text: str, **options: Any) -> Any:
             self._left -= 1
@@ -63,14 +63,17 @@ class Fault:
 
 
 def once(random: Random, folder: Path) -> int:
-    """Do harm to one run, where there are no results, the same, or those of other settings; return 1."""
+    """Inject a fault into one run, without results, with the same, or with those of other settings.
+
+    Return 1.
+    """
     number, kills = random.randint(1, _MOST_CALLS), random.random() < 0.5
     do_harm(folder, Fault(number, kills, random.choice([errno.ENOSPC, errno.EIO])), random.choice(EARLIER))
     return 1
 
 
 def do_harm(folder: Path, fault: Fault, earlier: Sequence[str]) -> bool:
-    """Return whether the fault was at a call of the run. `earlier` are settings of a run before, if any."""
+    """Return whether the fault hit a call of the run. `earlier` are settings of an earlier run, if any."""
     prepare(folder)
     command = (*ARGUMENTS, *_ONE_RUN)
     if earlier:
@@ -97,5 +100,5 @@ def do_harm(folder: Path, fault: Fault, earlier: Sequence[str]) -> bool:
 
 
 def is_new_without_hashes(content: Any, new: Any) -> bool:
-    """Return whether a result was written, and not yet again with the names of the other files."""
+    """Return whether a result was written, but not yet again with the names of the other files."""
     return isinstance(new, dict) and content == {**new, "output_hashes": {}}

@@ -1,4 +1,4 @@
-"""SIGKILL at a random instant of a study: --resume makes it what it would have been without."""
+"""SIGKILL at a random instant of a study: --resume gives the results of an undisturbed study."""
 
 import contextlib
 import os

@@ -1,4 +1,4 @@
-"""The kinds of harm that `make torture` does, and the short tests a few times."""
+"""Kinds of faults of `make torture`, and of the short tests."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,7 +7,7 @@ from random import Random
 from python.torture import clients, faults, kills, mutants, scenarios, signals
 
 Once = Callable[[Random, Path], int]
-"""Does harm in an empty folder, and returns how often. An exception says what was lost."""
+"""Injects faults in an empty directory, and returns how often. An exception says what was lost."""
 
 KINDS: dict[str, Once] = {
     "mutated .ini files": mutants.once,

@@ -1,4 +1,4 @@
-"""Scenarios with mistakes: files of the project and of a corpus, each changed at a few random places."""
+"""Scenarios with errors: files of the project and of a corpus, each changed at a few random places."""
 
 import random
 import re
@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[3]
 LARGEST = 8000
-"""Bytes of a file that is changed. Most mistakes need few lines."""
+"""Largest size of a changed file in bytes. Most errors need few lines."""
 
 SOURCES = sorted(
     file
@@ -17,7 +17,7 @@ SOURCES = sorted(
 )
 
 BASES = [file for file in SOURCES if "sim-time-limit" in file.read_text(encoding="utf-8")]
-"""Those that are not parts of others."""
+"""Files that are not parts of others."""
 
 _TOKEN = re.compile(r"\w+|\s+|[^\w\s]")
 

@@ -1,4 +1,4 @@
-"""Mutants of .ini files: whatever they say, the errors have places, and none makes the command hang."""
+"""Mutants of .ini files: their errors have places, and none makes the command hang."""
 
 import contextlib
 import random
@@ -16,7 +16,7 @@ from gradysim.scenario.sections import config_names
 from python.torture.mutant_files import ROOT, SOURCES, mutant
 
 MOST_CPU_S = 20
-MOST_S = 600  # of a machine that does other things, too
+MOST_S = 600  # on a busy machine
 LONGEST_MESSAGE = 1000
 _AT_ONCE = 50
 
@@ -45,7 +45,7 @@ def in_bounded_time() -> Iterator[None]:
 
 
 def link_sources(folder: Path) -> None:
-    """Copy the folders of .ini files, by links: protocols and included files are found from there."""
+    """Link the directories of .ini files, which contain protocols and included files."""
     for source in SOURCES:
         place = folder / source.parent.relative_to(ROOT)
         place.mkdir(parents=True, exist_ok=True)

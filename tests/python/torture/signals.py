@@ -1,4 +1,4 @@
-"""Signals that stop a study at a random instant: what was computed is kept, and no process is left."""
+"""Signals that stop a study at a random instant: results are kept, and no process is left."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""A study with all kinds of files, and what its results are when nothing disturbs it."""
+"""A study with all kinds of files, and its undisturbed results."""
 
 import json
 import os
@@ -67,7 +67,7 @@ def prepare(folder: Path) -> None:
 
 
 def begin(folder: Path, *more: str) -> subprocess.Popen[str]:
-    """Begin the command in a session of its own."""
+    """Start the command in a separate session."""
     return subprocess.Popen(
         [sys.executable, "-m", "gradysim", *ARGUMENTS, *more],
         cwd=folder,
@@ -80,7 +80,7 @@ def begin(folder: Path, *more: str) -> subprocess.Popen[str]:
 
 
 def end_of(process: subprocess.Popen[str], seconds: float = 60.0) -> int:
-    """Return the exit code, once no process of the command is left."""
+    """Return the exit code after the end of all processes of the command."""
     process.communicate(timeout=seconds)
     wait_until(lambda: not session(process.pid), 5)
     return process.returncode
@@ -88,7 +88,7 @@ def end_of(process: subprocess.Popen[str], seconds: float = 60.0) -> int:
 
 @cache
 def undisturbed() -> tuple[dict[str, Any], float]:
-    """Return the content of all files of the study, and the wall time in seconds that its command takes."""
+    """Return the content of all files of the study, and the wall time of its command in seconds."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         prepare(folder)
@@ -98,7 +98,7 @@ def undisturbed() -> tuple[dict[str, Any], float]:
 
 
 def content_of(directory: Path) -> dict[str, Any]:
-    """Return what two runs have in common, of each file."""
+    """Return the common content of two runs, for each file."""
     return {file.name: _READERS.get(file.suffix, Path.read_bytes)(file) for file in directory.iterdir()}
 
 
@@ -128,7 +128,7 @@ _READERS = {".json": _result, ".sca": _rows, ".vec": _rows}
 
 
 def assert_resume_completes(folder: Path, random: Random) -> None:
-    """Do what is left, and find each file of the study as if nothing had happened."""
+    """Resume the study, and check that each file is as if it had not been disturbed."""
     expected, _ = undisturbed()
     process = begin(folder, "--resume", "--jobs", str(random.randint(1, 3)))
     _, error_output = process.communicate(timeout=60)

@@ -1,6 +1,6 @@
-"""Whatever an .ini file says, `gradysim check` gives findings or errors with their places, in bounded time.
+"""For any .ini file, `gradysim check` gives findings or errors with their places, in bounded time.
 
-`make torture` tries others. A failure says how to repeat it. Mutants that found a mistake belong in
+`make torture` tries further files. A failure says how to repeat it. Mutants that found a bug belong in
 `tests/corpus/ini`.
 """
 

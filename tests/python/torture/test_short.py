@@ -1,4 +1,4 @@
-"""Each kind of harm, a few times; `make torture` goes on for longer."""
+"""Each kind of fault, a few times; `make torture` runs longer."""
 
 from random import Random
 

@@ -1,4 +1,4 @@
-"""The folder of the scripts on the import path, as when they are started from it."""
+"""The directory of the scripts on the import path, as when they are started from it."""
 
 import sys
 from pathlib import Path

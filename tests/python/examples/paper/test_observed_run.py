@@ -1,4 +1,4 @@
-"""What the handler of the paper's experiment sees."""
+"""Samples of the handler in the paper's experiment."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""The script that runs the steps, and what docs/how-to/repeat-the-paper.md shows of it."""
+"""The script that runs the steps, and its output in docs/how-to/repeat-the-paper.md."""
 
 import re
 from pathlib import Path
@@ -14,7 +14,7 @@ GUIDE = Path(__file__).parents[4] / "docs" / "guides" / "paper.md"
 
 
 def shown() -> list[list[str]]:
-    """The rows of its table in the guide."""
+    """Return the rows of its table in the guide."""
     block = re.findall(r"^```text\n(ZigZag5, run 0\n.*?)^```", GUIDE.read_text(), re.MULTILINE | re.DOTALL)[0]
     return [re.split(r" {2,}", line.strip()) for line in block.splitlines()[4:]]
 
@@ -38,7 +38,7 @@ def test_a_step_in_prototype_mode_is_as_shown(number: int) -> None:
 
 
 def test_in_the_first_step_uavs_are_stuck_from_the_start() -> None:
-    """Two hours of it take long; as nothing changes, ten minutes have a twelfth of the exchanges."""
+    """Two hours take long. Since nothing changes, ten minutes have a twelfth of the exchanges."""
     _, _, readings, exchanges, nearest = row("ZigZag5", STEPS[0], "prototype", "sim-time-limit = 10min")
     told = shown()[0]
     assert (readings, nearest) == (told[2], told[4])

@@ -1,4 +1,4 @@
-"""configs/sensor_field.ini does what it says."""
+"""Behavior of configs/sensor_field.ini."""
 
 from pathlib import Path
 

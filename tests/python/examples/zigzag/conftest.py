@@ -1,4 +1,4 @@
-"""What the tests of the ZigZag example share: its folder on the import path, a provider to watch it with."""
+"""Fixtures of the ZigZag example: its directory on the import path, and a provider that records."""
 
 import sys
 from collections.abc import Callable
@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parents[4] / "examples" / "zigzag"))
 
 
 class FakeProvider(IProvider):
-    """Does nothing but write down what a protocol asks for."""
+    """Records the commands of a protocol."""
 
     def __init__(self, node_id: int) -> None:
         self.node_id = node_id
@@ -45,7 +45,7 @@ class FakeProvider(IProvider):
 
 
 class Bench:
-    """One protocol on a `FakeProvider`, to be fed with events."""
+    """One protocol on a `FakeProvider`, for events of the test."""
 
     def __init__(self, protocol_class: type[IProtocol], node_id: int, parameters: dict[str, object]) -> None:
         self.provider = FakeProvider(node_id)
@@ -58,7 +58,7 @@ class Bench:
         return self.provider.tracked_variables
 
     def next_timer(self) -> str:
-        """Let time pass up to the next timer, fire it and return its name."""
+        """Advance time to the next timer, fire it and return its name."""
         timer = min(self.provider.timers, key=lambda pending: pending[1])
         self.provider.timers.remove(timer)
         self.provider.now = timer[1]
@@ -66,7 +66,7 @@ class Bench:
         return timer[0]
 
     def hear(self, *messages: Any) -> list[tuple[Any, int | None]]:
-        """Receive the messages. Returns what was sent since the last call, as `drain` does."""
+        """Receive the messages. Return what was sent since the last call, like `drain`."""
         from message import encode
 
         for message in messages:
@@ -74,7 +74,7 @@ class Bench:
         return self.drain()
 
     def drain(self) -> list[tuple[Any, int | None]]:
-        """What was sent since the last call: (message, destination), with None for a broadcast."""
+        """Return what was sent since the last call: (message, destination), with None for a broadcast."""
         from message import decode
 
         sent = [(decode(command.message), command.destination) for command in self.provider.sent]

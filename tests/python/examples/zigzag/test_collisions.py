@@ -1,4 +1,4 @@
-"""ZigZag on the realistic network: what the paper found, and what prototype mode cannot show.
+"""ZigZag on the realistic network: the paper's findings, which prototype mode cannot show.
 
 Twenty minutes of the smallest size; `test_paper_claims.py` has all sizes at full length.
 """

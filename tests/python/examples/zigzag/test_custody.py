@@ -29,7 +29,7 @@ def test_an_old_message_that_comes_late_takes_nothing_away() -> None:
 def test_what_a_lost_message_gave_comes_with_the_next_one() -> None:
     giver, taker = Custody(), Custody()
     giver.held = 12
-    giver.give_all(2)  # and the message is lost
+    giver.give_all(2)  # the message is lost
     giver.held = 3
     giver.give_all(2)
     assert taker.take(1, giver.given_to(2)) == 15

@@ -1,7 +1,7 @@
 """Whole exchanges between several UAVs and a ground station, in any order and with any losses.
 
-The law: a reading that was collected is held by exactly one node or is in transit between two, that is,
-handed over in a message that was lost. No reading exists twice. Without losses none is in transit.
+Invariant: exactly one node holds a collected reading, or it is in transit between two nodes, handed over in a
+lost message. No reading exists twice. Without losses none is in transit.
 """
 
 from collections.abc import Callable, Iterator
@@ -23,7 +23,7 @@ STATION = UAVS
 
 @dataclass
 class Fleet:
-    """UAVs and a ground station. `lose` says of one message after the other if it is lost."""
+    """UAVs and a ground station. `lose` returns for one message after the other whether it is lost."""
 
     nodes: list[Any]
     lose: Iterator[bool] = field(default_factory=lambda: iter(()))
@@ -36,7 +36,7 @@ class Fleet:
         self.nodes[uav].hear(*[SensorData(99)] * readings)
 
     def send_heartbeat(self, sender: int, hearers: set[int]) -> None:
-        """Let a node send a heartbeat to those that are near, and all answers to it find their way."""
+        """Send a heartbeat of a node to the nodes in range, and deliver all answers."""
         node = self.nodes[sender]
         node.drain()
         node.protocol.handle_timer("heartbeat")
@@ -69,7 +69,7 @@ class Fleet:
 
 @pytest.fixture
 def fleet(bench: Callable[..., Any]) -> Callable[..., Fleet]:
-    """`fleet(homeward=[...])`: UAVs between two sensors, those numbers flying towards the ground station."""
+    """`fleet(homeward=[...])`: UAVs between two sensors; those numbers fly towards the ground station."""
 
     def start(homeward: list[int], **parameters: object) -> Fleet:
         uavs = [bench(ZigZagMobile, uav, launch_interval=0.0, **parameters) for uav in range(UAVS)]

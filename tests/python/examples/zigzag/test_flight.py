@@ -23,7 +23,7 @@ DURATION_S = 1800.0
 
 @dataclass
 class Flight:
-    """What was seen of a run: the nodes at its end, and the course of some values."""
+    """Observations of a run: the nodes at its end, and some values over time."""
 
     nodes: list[Any]
     times: list[float] = field(default_factory=list)
@@ -38,11 +38,11 @@ class Flight:
         return variables
 
     def at(self, time: float) -> int:
-        """Index of the last observation up to that time."""
+        """Return the index of the last observation up to that time."""
         return max(index for index, seen in enumerate(self.times) if seen <= time)
 
     def mean_distance(self) -> float:
-        """Mean distance between the UAVs along the line, m."""
+        """Return the mean distance between the UAVs along the line, m."""
         return sum(abs(first - second) for first, second in self.places) / len(self.places)
 
 

@@ -20,7 +20,7 @@ STATION = 9
 
 @pytest.fixture
 def flying(bench: Callable[..., Any]) -> Callable[..., Any]:
-    """`flying(node_id, homeward, data, **parameters)`: a UAV on its way between two sensors."""
+    """`flying(node_id, homeward, data, **parameters)`: a UAV in flight between two sensors."""
 
     def start(node_id: int = 1, homeward: bool = False, data: int = 0, **parameters: object) -> Any:
         uav = bench(ZigZagMobile, node_id, **parameters)
@@ -39,7 +39,7 @@ def flying(bench: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def direction(uav: Any) -> str:
-    """What the next heartbeat says."""
+    """Return the direction in the next heartbeat."""
     uav.drain()
     while uav.next_timer() != "heartbeat":
         pass
@@ -128,7 +128,7 @@ def test_each_reading_of_a_sensor_counts_one(flying: Callable[..., Any]) -> None
 
 
 class TestCarrier:
-    """A heartbeat is answered with a request that names the carrier."""
+    """The answer to a heartbeat is a request that names the carrier."""
 
     @pytest.mark.parametrize(
         ("own_id", "own_homeward", "peer_homeward", "carrier"),

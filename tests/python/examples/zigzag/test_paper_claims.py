@@ -1,9 +1,9 @@
-"""What the paper found with ZigZag, each claim at its full length of two simulated hours.
+"""The paper's findings with ZigZag, each at its full length of two simulated hours.
 
 T. Lamenza et al., "Developing Algorithms for the Internet of Flying Things Through Environments With Varying
-Degrees of Realism", section "Results and Discussions": heartbeats that all leave in the same instant work in
-the prototype and fail on a real channel; with a random delay they work on both, and the prototype collects
-more. The numbers of the paper are not claimed: its radios were tuned for another simulator.
+Degrees of Realism", section "Results and Discussions": heartbeats that all start at the same instant work in
+the prototype and fail on a real channel. With a random delay they work on both, and the prototype collects
+more. The tests do not check the paper's numbers: its radios were tuned for another simulator.
 """
 
 from collections.abc import Mapping
@@ -29,10 +29,10 @@ WITH_JITTER = [("ZigZag5", 0), ("ZigZag5", 1), ("ZigZag5", 2), ("ZigZag15", 0), 
 
 @dataclass(frozen=True)
 class Flight:
-    """A run in integrated mode, and what became of the copies at the ground station.
+    """A run in integrated mode, with the outcomes of receptions at the ground station.
 
     Attributes:
-        heard: Copies strong enough to be received there: {kind: {fate: count}}.
+        heard: Receptions strong enough there: {kind: {outcome: count}}.
     """
 
     result: RunResult
@@ -55,7 +55,7 @@ def prototype(config: str, seed: int = 0) -> RunResult:
 
 
 def arrived(result: RunResult) -> int:
-    """Readings that reached the ground station."""
+    """Return the number of readings that reached the ground station."""
     assert result.nodes[-1].name == "groundStation"
     assert (result.sim_time_s, result.interrupted) == (7200.0, False)
     count = result.nodes[-1].tracked_variables["data"]

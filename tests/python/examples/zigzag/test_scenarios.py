@@ -1,4 +1,4 @@
-"""configs/zigzag.ini: what its scenarios contain, and that its parts agree with each other."""
+"""configs/zigzag.ini: the content of its scenarios, and consistency of its parts."""
 
 from functools import cache
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""What the tests of the plugins share: a provider to watch a protocol with, and short runs in both modes."""
+"""Fixtures of the plugins: a provider that records, and short runs in both modes."""
 
 from typing import NamedTuple
 
@@ -17,7 +17,7 @@ from python.recording_protocol import RecordingProtocol
 
 
 class RecordingProvider(IProvider):
-    """Keeps what it is given; time passes by `pass_time` alone."""
+    """Records its calls; time advances only by `pass_time`."""
 
     def __init__(self, node_id=0, seed=0):
         self.node_id = node_id
@@ -62,7 +62,7 @@ class RecordingProvider(IProvider):
 
     @property
     def targets(self):
-        """Points that the vehicle was sent to, in order."""
+        """Return the targets of the vehicle, in order."""
         return [
             (command.param_1, command.param_2, command.param_3)
             for command in self.commands
@@ -80,7 +80,7 @@ class RecordingProvider(IProvider):
 
 @pytest.fixture(scope="session")
 def make_protocol():
-    """`make_protocol(node_id=0, seed=0)`: a protocol that records, on a provider that records."""
+    """`make_protocol(node_id=0, seed=0)`: a recording protocol on a recording provider."""
     return lambda **arguments: RecordingProtocol.instantiate(RecordingProvider(**arguments))
 
 
@@ -90,14 +90,14 @@ def protocol(make_protocol):
 
 
 class Outcome(NamedTuple):
-    """How a node ended."""
+    """Final state of a node."""
 
     position: tuple[float, float, float]
     tracked_variables: dict[str, object]
 
 
 def build(configuration, *protocols):
-    """A simulation of these protocols as a script would make it, all at the origin and in reach."""
+    """Return a simulation of these protocols like a script's, all at the origin and in range."""
     builder = SimulationBuilder(configuration)
     builder.add_handler(CommunicationHandler(CommunicationMedium(transmission_range=1000)))
     builder.add_handler(TimerHandler())
@@ -128,7 +128,7 @@ def integrated(scenario):
 
 @pytest.fixture
 def make_scenario(tmp_path):
-    """`make_scenario(python, *settings)`: the protocols of `python` on a channel that loses nothing."""
+    """`make_scenario(python, *settings)`: the protocols of `python` on a channel without losses."""
 
     def make(python, *settings):
         (tmp_path / "protocols.py").write_text(f"{QUIET}\n{python}\n", encoding="utf-8")
@@ -142,13 +142,13 @@ def make_scenario(tmp_path):
 
 @pytest.fixture(params=[prototype, integrated], ids=["prototype", "integrated"])
 def run_mode(request):
-    """`run_mode(scenario)`: run it in one of the modes; returns the `Outcome` of each node."""
+    """`run_mode(scenario)`: run it in one of the modes; return the `Outcome` of each node."""
     return request.param
 
 
 @pytest.fixture
 def build_simulation():
-    """`build_simulation(configuration, *protocols)`: a simulator of nodes at the origin, all in reach."""
+    """`build_simulation(configuration, *protocols)`: a simulator of nodes at the origin, all in range."""
     return build
 
 

@@ -29,7 +29,7 @@ def arrive(protocol, plugin, waypoints=LINE):
 
 
 def visited(protocol, plugin, count, waypoints=LINE):
-    """Indices of the waypoints flown to, when each one is reached in turn."""
+    """Return the indices of the waypoints flown to, if each one is reached in turn."""
     indices = []
     for _ in range(count):
         if plugin.is_idle:

@@ -50,7 +50,7 @@ def provider(protocol):
 
 
 def rows(path):
-    """The lines of a file, without the number in front."""
+    """Return the lines of a file, without their numbers."""
     with open(path, newline="", encoding="utf-8") as file:
         return [row[1:] for row in csv.reader(file)]
 

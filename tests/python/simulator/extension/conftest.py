@@ -12,7 +12,7 @@ def idle():
 
 @pytest.fixture
 def simulation():
-    """Make a simulation of nodes at these points, with these handlers, that has not begun."""
+    """Return a function that makes a simulation of nodes at these points, with these handlers."""
 
     def make(points, *handlers, protocol=Quiet):
         builder = SimulationBuilder(SimulationConfiguration(execution_logging=False, seed=1))
@@ -27,7 +27,7 @@ def simulation():
 
 @pytest.fixture
 def protocols(simulation):
-    """The protocols of such a simulation."""
+    """Return the protocols of such a simulation."""
 
     def make(points, *handlers, protocol=Quiet):
         nodes = simulation(points, *handlers, protocol=protocol).nodes
@@ -38,7 +38,7 @@ def protocols(simulation):
 
 @pytest.fixture
 def hosted():
-    """A protocol that neither simulator runs."""
+    """Return a protocol in another environment."""
     encapsulator = InteropEncapsulator()
     encapsulator.encapsulate(Quiet)
     return encapsulator.protocol

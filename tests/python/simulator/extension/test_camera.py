@@ -32,7 +32,7 @@ NAMES = {point: name for name, point in POINTS.items() if name != "camera"}
 
 @pytest.fixture
 def see(protocols):
-    """See with a camera at the origin, among POINTS; its reach is 10 m."""
+    """Take a picture with a camera at the origin, among POINTS; its reach is 10 m."""
 
     def look(theta, elevation, rotation):
         protocol, *_ = protocols(POINTS.values(), MobilityHandler())
@@ -129,7 +129,7 @@ def test_what_it_points_at_is_seen(protocols_at, direction, theta, distance):
 
 @pytest.fixture(scope="module")
 def protocols_at(idle):
-    """As `protocols`, wired by hand, for the examples of a property."""
+    """Like `protocols`, wired by hand, for the examples of a property."""
 
     def make(points):
         handler, made = MobilityHandler(), []
@@ -179,7 +179,7 @@ def test_it_cannot_be_turned_to_nowhere(protocols):
 
 
 class Thermal(CameraHardware):
-    """A camera of one's own: it sees what is warm, however far aside, and says how warm it is."""
+    """A user's camera: it sees warm nodes at any distance from the axis, and their temperature."""
 
     def take_picture(self):
         assert self._camera_vector == pytest.approx((0, 0, -1))

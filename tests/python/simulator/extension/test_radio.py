@@ -16,7 +16,7 @@ POINTS = [(0, 0, 0), (30, 0, 0), (90, 0, 0)]
 
 @pytest.fixture
 def heard(simulation, idle):
-    """Broadcast with a radio that is set like this, from the first of POINTS; return who heard it when."""
+    """Broadcast with a radio with these settings, from the first of POINTS; return the receptions."""
 
     def broadcast(**settings):
         calls = []

@@ -5,7 +5,7 @@ from gradysim.simulator.node import Node
 
 
 class Recorder:
-    """Stands for a protocol: keeps what reaches it, with the time."""
+    """Replaces a protocol: records its callbacks, with their times."""
 
     def __init__(self, loop):
         self.loop = loop
@@ -22,7 +22,7 @@ class Recorder:
 
 
 class World:
-    """An event loop with nodes that are wired by hand, as a user's own handler test does it."""
+    """An event loop with nodes that are wired by hand, as in a user's handler test."""
 
     def __init__(self):
         self.loop = EventLoop()
@@ -37,7 +37,7 @@ class World:
         return node
 
     def run(self, until=float("inf")):
-        """Run the events up to a time; return how many there were."""
+        """Run the events up to a time; return their number."""
         count = 0
         while (event := self.loop.peek_event()) is not None and event.timestamp <= until:
             self.loop.pop_event().callback()
@@ -52,5 +52,5 @@ def world():
 
 @pytest.fixture(scope="module")
 def new_world():
-    """Make worlds: one for each example of a property."""
+    """Return a function that makes worlds: one for each example of a property."""
     return World

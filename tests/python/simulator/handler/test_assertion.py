@@ -47,7 +47,7 @@ def test_its_label():
     assert AssertionHandler([]).get_label() == "assertion"
 
 
-# What must always be true
+# Conditions that always hold
 
 
 def always(limit, protocol=Counter):
@@ -115,7 +115,7 @@ def test_a_protocol_whose_file_was_loaded_twice_is_an_error():
         run(always(5), protocols=[again])
 
 
-# What must be true once
+# Conditions that hold once
 
 
 def eventually(value, protocol=Counter):
@@ -155,7 +155,7 @@ def test_eventually_true_of_the_simulation():
         run(sum_is_six)
 
 
-# Cases
+# Test cases
 
 
 def test_a_case_goes_by_the_name_of_its_predicate():

@@ -116,7 +116,7 @@ def test_a_command_can_have_a_medium_of_its_own(world, network):
 
 
 class Farther(CommunicationHandler):
-    """A handler of one's own: reach depends on both ends, 100 m to node 2, and to node 1 nothing gets."""
+    """A user's handler: the range depends on both ends. It is 100 m to node 2, and 0 m to node 1."""
 
     asked = ()
 
@@ -301,7 +301,7 @@ class TestStandingTime:
 
     @pytest.fixture
     def answering(self, monkeypatch, network):
-        """Two nodes that answer each message, over a medium with that delay."""
+        """Return two nodes that answer each message, over a medium with that delay."""
         monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 10)
 
         def answering(delay, times=None):

@@ -209,7 +209,7 @@ class TestStandingTime:
 
     @pytest.fixture
     def again(self, monkeypatch, world, handler, node):
-        """Have each timer set another one, `delay` seconds later."""
+        """Make each timer set another one, `delay` seconds later."""
         monkeypatch.setattr(event, "MOST_AT_ONE_INSTANT", 10)
 
         def again(delay, times=None):

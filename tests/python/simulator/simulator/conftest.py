@@ -1,4 +1,4 @@
-"""Lets the tests of this folder import what they share, and sees to it that none leaves a log handler."""
+"""Import path of the shared modules of this directory, and a check that tests leave no log handlers."""
 
 import logging
 import sys

@@ -1,4 +1,4 @@
-"""Protocols, a handler and simulations for the tests of this folder."""
+"""Protocols, a handler and simulations for the tests of this directory."""
 
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.timer import TimerHandler
@@ -7,7 +7,7 @@ from python.recording_protocol import RecordingProtocol
 
 
 class Protocol(RecordingProtocol):
-    """Does nothing; keeps the callbacks of all instances in the class's `calls`: (name, id, *arguments)."""
+    """Does nothing; records the callbacks of all instances in the class's `calls`: (name, id, *arguments)."""
 
     calls: list
 
@@ -18,7 +18,7 @@ class Protocol(RecordingProtocol):
 
 
 class Recorder(INodeHandler):
-    """A handler that keeps what it is called with."""
+    """A handler that records its calls."""
 
     def __init__(self, calls):
         self.calls = calls
@@ -44,7 +44,7 @@ class Recorder(INodeHandler):
 
 
 def protocol(**methods):
-    """Make a protocol class with callbacks of its own."""
+    """Return a protocol class with these callbacks."""
     return type("Tested", (Protocol,), {"calls": [], **methods})
 
 

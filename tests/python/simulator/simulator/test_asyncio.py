@@ -9,7 +9,7 @@ from gradysim.simulator.handler.interface import IAsyncNodeHandler
 
 
 class Asynchronous(IAsyncNodeHandler):
-    """Runs a coroutine function, given itself, from `initialize` on."""
+    """Runs a coroutine function of the handler, from `initialize` on."""
 
     def __init__(self, work=None):
         self.work = work

@@ -1,4 +1,4 @@
-"""Each test has a folder of its own, and leaves no process, thread or folder behind."""
+"""Each test has its own directory, and leaves no process, thread or directory behind."""
 
 import gc
 import threading

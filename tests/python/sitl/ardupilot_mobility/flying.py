@@ -1,4 +1,4 @@
-"""Simulations whose nodes are flown by processes that speak MAVLink: the toy of tests/python/sitl."""
+"""Simulations with nodes flown by processes that speak MAVLink: the toy of tests/python/sitl."""
 
 import os
 import time
@@ -23,7 +23,7 @@ SPEED = 10
 
 
 class Flyer(Quiet):
-    """Does `deeds[time](self)` at the times given, and keeps its telemetry."""
+    """Calls `deeds[time](self)` at the given times, and records its telemetry."""
 
     deeds: ClassVar = {}
 
@@ -39,7 +39,7 @@ class Flyer(Quiet):
         self.telemetry.append((self.provider.current_time(), telemetry.current_position))
 
     def at(self, moment):
-        """Where it was by its last telemetry before a time."""
+        """Return its position in the last telemetry before a time."""
         return [position for time, position in self.telemetry if time <= moment][-1]
 
 
@@ -56,7 +56,7 @@ def _sender(command):
 
 
 def programs_in(folder):
-    """The command lines of running processes that name a folder."""
+    """Return the command lines of running processes that name a directory."""
     found = []
     for file in Path("/proc").glob("[0-9]*/cmdline"):
         try:
@@ -69,7 +69,7 @@ def programs_in(folder):
 
 
 def programs_left_in(folder):
-    """The same, some moments later if there are any: the kernel may need them to end what was killed."""
+    """Return the same, after a moment if there are any: the kernel may need time to end killed processes."""
     for _ in range(500):
         if not programs_in(folder):
             break

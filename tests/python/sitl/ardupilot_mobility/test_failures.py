@@ -1,4 +1,4 @@
-"""What goes wrong with an autopilot, and what is said then."""
+"""Failures of autopilots, and their messages."""
 
 import pytest
 

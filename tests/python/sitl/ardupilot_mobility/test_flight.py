@@ -1,4 +1,4 @@
-"""How nodes fly, from take-off on."""
+"""Flights of nodes, from take-off on."""
 
 import json
 import math
@@ -52,7 +52,7 @@ def test_without_reference_coordinates_nodes_fly_at_latitude_and_longitude_0(toy
 
 
 def final_state(program, identifier=0):
-    """What the autopilot was doing at the end: target (north, east, up of its home), speed, velocity."""
+    """Return the final state of the autopilot: target (north, east, up of its home), speed, velocity."""
     state = json.loads(program.with_name(f"final_{identifier}.json").read_text())
     assert state.pop("greetings") == 0, "ArduPilot takes a ground station that was there once for lost"
     state.pop("parameters")

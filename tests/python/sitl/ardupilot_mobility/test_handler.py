@@ -1,4 +1,4 @@
-"""What the handler's settings change: report, logs, autopilots."""
+"""Settings of the handler: report, logs, autopilots."""
 
 import csv
 import json

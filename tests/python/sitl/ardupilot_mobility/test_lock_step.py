@@ -1,4 +1,4 @@
-"""Without real time the autopilots fly on simulated time."""
+"""Without `real_time` the autopilots fly on simulated time."""
 
 import asyncio
 import csv
@@ -56,7 +56,7 @@ def test_two_simulations_are_the_same_to_the_last_bit(toy_copter):
 
 @pytest.mark.parametrize("real_time", [False, 10])
 def test_it_flies_in_a_notebook_too(toy_copter, real_time):
-    """Where another asyncio loop runs in the same thread."""
+    """Another asyncio loop runs in the same thread."""
 
     async def cell():
         return fly_at_any_pace(toy_copter(), Flyer, duration=0.5, real_time=real_time)

@@ -1,4 +1,4 @@
-"""Autopilots on the wall's time; however their simulation ends, nothing is left behind."""
+"""Autopilots in real time; all resources are freed for all kinds of ends."""
 
 import asyncio
 import gc

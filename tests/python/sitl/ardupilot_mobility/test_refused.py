@@ -1,4 +1,4 @@
-"""What is refused before or while nodes fly."""
+"""Rejected arguments and commands."""
 
 import gc
 import sys

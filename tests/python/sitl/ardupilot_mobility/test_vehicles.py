@@ -1,4 +1,4 @@
-"""Vehicles that the simulation does not start, and ground stations that look on."""
+"""Vehicles that the simulation does not start, and ground stations that watch."""
 
 import contextlib
 import gc
@@ -52,7 +52,7 @@ def test_a_running_vehicle_is_flown_and_not_ended(toy_copter, monkeypatch):
 
 @contextlib.contextmanager
 def vehicle(program, serial, home):
-    """A vehicle that the simulation does not start, at the pace of the simulation."""
+    """Return a vehicle that the simulation does not start, at the pace of the simulation."""
     folder = program.parent / "vehicle"
     folder.mkdir()
     options = f"--speedup {SPEED} --instance 0 --sysid 7 --defaults /dev/null --model quad".split()

@@ -146,7 +146,7 @@ def test_on_a_real_channel_leaders_hear_each_other_and_have_followers(make_scena
     for node in nodes[:5]:
         heard = node.tracked_variables["heard"]
         assert len(heard) == 4
-        assert min(heard.values()) > 90  # of 98 or 99
+        assert min(heard.values()) > 90  # out of 98 or 99
     assert nodes[0].tracked_variables["followers"] == [5, 6, 7]
 
 

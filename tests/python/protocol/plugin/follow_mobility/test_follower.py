@@ -29,7 +29,7 @@ def scan(protocol, time):
 
 
 def following(protocol, leader=3, **configuration):
-    """A follower of that leader, which it has heard once, at time 0."""
+    """Return a follower of that leader, whose broadcast it has received once, at time 0."""
     plugin = follow(protocol, **configuration)
     hear(protocol, leader)
     plugin.follow_leader(leader)
@@ -191,7 +191,7 @@ def test_leaders_are_those_heard_within_the_timeout_before_the_look(
 ):
     protocol = make_protocol()
     plugin = follow(protocol, scanning_interval=interval, leader_timeout=timeout)
-    moments = sorted(time + 0.5 for time in hearings)  # between looks, which come at whole seconds
+    moments = sorted(time + 0.5 for time in hearings)  # between two checks, which come at integer seconds
     last = -math.inf
     for time in moments:
         scan(protocol, time)

@@ -23,7 +23,7 @@ POSITION = (1.0, 2.0, 3.0)
 
 
 def lead(protocol, **configuration):
-    """A leader that has had telemetry."""
+    """Return a leader with telemetry."""
     plugin = MobilityLeaderPlugin(protocol, MobilityLeaderConfiguration(**configuration))
     protocol.handle_telemetry(Telemetry(POSITION))
     protocol.calls.clear()
@@ -211,7 +211,7 @@ starts = st.floats(0, 1e5)
 
 
 def times(clock, start, count):
-    """The first `count` times of the clock, each asked at the one before."""
+    """Return the first `count` times of the clock, each requested at the one before."""
     result = [clock.next(start)]
     while len(result) < count:
         result.append(clock.next(result[-1]))

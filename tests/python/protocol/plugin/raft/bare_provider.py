@@ -2,7 +2,7 @@
 
 
 class BareProvider:
-    """Has what the plugin asks for, and no more."""
+    """Has only the methods that the plugin uses."""
 
     def __init__(self, node_id=3):
         self.node_id = node_id

@@ -1,8 +1,8 @@
-"""Whose a term is, counted row by row; `term` itself goes by a formula."""
+"""Owner of a term, counted row by row; `term` itself uses a formula."""
 
 
 def owner_of(term):
-    """The id of the only node that can lead it."""
+    """Return the id of the only node that can lead the term."""
     terms_of_row = 1
     while term > terms_of_row:
         term -= terms_of_row

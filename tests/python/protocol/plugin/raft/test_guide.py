@@ -1,4 +1,4 @@
-"""What docs/how-to/agree-with-raft.md shows is what happens."""
+"""The output in docs/how-to/agree-with-raft.md is correct."""
 
 import importlib
 import re
@@ -14,7 +14,7 @@ GUIDE = Path(__file__).parents[5] / "docs/how-to/agree-with-raft.md"
 
 @pytest.fixture
 def folder(tmp_path):
-    """A folder with the guide's two files, as a reader would save them."""
+    """Return a directory with the guide's two files."""
     for language, name in [("python", "agreement.py"), ("ini", "agreement.ini")]:
         (block,) = re.findall(rf"^```{language}\n(.*?)^```", GUIDE.read_text(), re.MULTILINE | re.DOTALL)
         (tmp_path / name).write_text(block)

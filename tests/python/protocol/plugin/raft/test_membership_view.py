@@ -1,4 +1,4 @@
-"""Which nodes a node considers members, of the same cluster, and active."""
+"""Nodes that a node considers members, of the same cluster, and active."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Nine nodes in prototype mode, 10 ms apart, every fifth message lost: where consensus easily goes wrong."""
+"""Nine nodes in prototype mode, with 10 ms of delay and 20 % losses, where consensus is difficult."""
 
 import pytest
 
@@ -13,7 +13,7 @@ SEEDS = range(25)
 
 
 class Member(Quiet):
-    """Proposes 42 when it leads at 1.5 s, and notes in which terms it has led."""
+    """Proposes 42 if it leads at 1.5 s, and logs the terms in which it has led."""
 
     mode = RaftMode.CLASSIC
 

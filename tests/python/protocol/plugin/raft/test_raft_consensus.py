@@ -74,7 +74,7 @@ def leader(plugin, protocol):
 
 @pytest.fixture
 def tolerant_plugin(config, protocol):
-    """A follower in fault-tolerant mode, of five nodes."""
+    """Return a follower in fault-tolerant mode, of five nodes."""
     plugin = RaftConsensusPlugin(config.set_raft_mode(RaftMode.FAULT_TOLERANT), protocol)
     plugin.set_known_nodes(range(5))
     plugin.start()
@@ -83,7 +83,7 @@ def tolerant_plugin(config, protocol):
 
 @pytest.fixture
 def tolerant_leader(tolerant_plugin, protocol):
-    """Nodes 0, 1 and 2 have all of its log; node 4 never answered."""
+    """Return a leader: nodes 0, 1 and 2 have its whole log; node 4 never answered."""
     protocol.handle_timer("__RAFT__:election_timeout")
     for node_id in range(3):
         send(protocol, DiscoveryHeartbeatResponse(0, node_id))

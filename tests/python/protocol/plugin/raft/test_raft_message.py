@@ -109,7 +109,7 @@ def test_a_wrong_or_missing_field_is_an_error(text):
 
 @pytest.fixture
 def factory():
-    """The factory, without the types that others have registered."""
+    """Return the factory without types registered by others."""
     return type("Factory", (MessageFactory,), {"_message_types": dict(MessageFactory._message_types)})
 
 

@@ -112,7 +112,7 @@ def test_who_was_stopped_goes_on_where_it_was(network_type):
 
 
 def test_no_two_nodes_send_at_the_same_time_for_long(network_type, faults_type):
-    """Without any delay all followers hear a heartbeat at the same instant."""
+    """Without a delay all followers receive a heartbeat at the same instant."""
     network = network_type(9, 1, faults=faults_type(delay_s=(0.0, 0.0)))
     network.elect()
     instants = []
@@ -131,7 +131,7 @@ def test_no_two_nodes_send_at_the_same_time_for_long(network_type, faults_type):
         ({0, 1}, {0, 1, 2}, True),
         ({0, 1}, {0, 1, 2, 3}, False),
         ({0, 1, 2}, {0, 1, 2, 3}, True),
-        ({0, 8, 9}, {0, 1, 2}, False),  # strangers do not count
+        ({0, 8, 9}, {0, 1, 2}, False),  # nodes outside of the cluster do not count
     ],
 )
 def test_a_majority_is_more_than_half_of_the_electorate(network_type, nodes, electorate, is_majority):
@@ -161,7 +161,7 @@ def test_in_a_higher_term_vote_and_leader_are_forgotten(network_type):
 
 @pytest.mark.parametrize("step", [0, -1])
 def test_a_term_that_is_not_higher_changes_nothing(network_type, step):
-    """A vote that was forgotten could be given twice."""
+    """A forgotten vote could be given twice."""
     node = follower_of(network_type(3, 1))
     term, leader = node.persistent.current_term, node.leader_id
     node.persistent.voted_for = leader
@@ -253,7 +253,7 @@ def test_while_members_are_found_who_knows_fewer_gets_no_vote(network_type, know
     network.elect()
     network.run(1.0)
     voter = network.nodes[0]
-    voter.adopt_term(10**6)  # whose leader is not known
+    voter.adopt_term(10**6)  # its leader is unknown
     voter.handle_message(RequestVote(10**6, 1, 10**6, 10**6, known_nodes=known).to_json())
     assert (voter.persistent.voted_for == 1) is granted
 
@@ -273,7 +273,7 @@ def test_a_leader_is_elected(network_type, mode, known):
 def test_who_has_heard_all_members_stands_at_once(network_type, mode):
     network = network_type(3, 1, mode)
     network.nodes[0].handle_timer(ELECTION_TIMER)
-    # All rounds of looking round take 200 ms; two answers to a broadcast, 50 ms at most each.
+    # All rounds of discovery take 200 ms; two answers to a broadcast take 50 ms at most each.
     assert network.run(0.1, until=lambda: network.leader is network.nodes[0])
 
 
@@ -330,7 +330,7 @@ def test_in_fault_tolerant_mode_the_last_node_does_not_lead(network_type):
 @BOTH_MODES
 def test_a_node_that_was_set_to_be_alone_leads(network_type, mode):
     network = network_type(1, 1, mode)
-    network.rules.check = lambda node: None  # they look at entries before they are committed
+    network.rules.check = lambda node: None  # the rules check entries before they are committed
     assert network.elect().propose("v", 42)
     assert network.agree_on("v", 42)
 
@@ -492,7 +492,7 @@ def test_committing_needs_the_majority_of_members_set_later(network_type):
     leader = network.elect()
     leader.set_known_nodes(range(100))
     leader.propose("v", 42)
-    network.run(0.04)  # all have answered; later another node, which counts three members, may commit it
+    network.run(0.04)  # all have answered; another node, which counts three members, may commit it later
     assert leader.persistent.log.values == {}
 
 

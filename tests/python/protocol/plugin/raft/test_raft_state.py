@@ -22,7 +22,7 @@ from python.protocol.plugin.raft.term_owner import owner_of
 
 
 def log_of(*terms, committed=0):
-    """A log of entries ("v", its number) with those terms."""
+    """Return a log of entries ("v", number) with those terms."""
     log = RaftLog()
     for number, term in enumerate(terms, start=1):
         log.append(Entry(term, "v", number))
@@ -131,7 +131,7 @@ def test_who_follows_in_spite_of_a_contradiction_has_the_leaders_log():
 
 @given(st.integers(0, 2**32), st.integers(1, 12))
 def test_messages_of_one_leader_in_any_order_give_its_log(seed, count):
-    """Whatever a follower had that was not committed, and however often and in what order it hears."""
+    """For any uncommitted entries of the follower, and any order and repetition of messages."""
     stream = Random(seed)
     leader = log_of(1, 1, committed=stream.randint(0, 2))
     follower = log_of(1, *[2] * stream.randint(0, 4))

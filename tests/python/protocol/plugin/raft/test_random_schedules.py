@@ -1,8 +1,8 @@
-"""Safety and liveness over random schedules of everything that can go wrong.
+"""Safety and liveness over random schedules of all faults.
 
-The rules are checked after every event: see `Rules`. A crash keeps term, vote and log of a node and loses all
-else. `make test` runs an eighth of the schedules, `make verify` the others. `RAFT_SCHEDULES=50000` makes it
-that many of each kind.
+The rules are checked after every event: see `Rules`. A crash keeps term, vote and log of a node and loses
+everything else. `make test` runs an eighth of the schedules, `make verify` the others. `RAFT_SCHEDULES=50000`
+sets the number of each kind.
 """
 
 import os
@@ -56,7 +56,7 @@ def test_members_that_find_each_other_have_one_leader_per_term(network_type, fir
 
 @pytest.mark.parametrize("mode", RaftMode)
 def test_where_all_hear_each_other_both_modes_keep_what_was_committed(network_type, faults_type, mode):
-    """Loss, delay and duplication, but no partition and no crash: all see (nearly) the same nodes active."""
+    """With loss, delay and duplication, but without partitions and crashes: views are nearly the same."""
     for seed in range(20):
         faults = faults_type(loss=0.2, duplication=0.1, delay_s=(0.0, 0.03))
         network = network_type(5, seed, mode, faults, known=seed % 2 == 0, partial=False)

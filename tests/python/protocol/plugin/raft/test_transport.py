@@ -1,4 +1,4 @@
-"""Messages and timers that reach the provider of a protocol."""
+"""Messages and timers that reach a protocol's provider."""
 
 import json
 from random import Random
@@ -31,7 +31,7 @@ def transport(provider, membership):
 
 
 def sent_by(provider):
-    """The messages as dictionaries, each with its destination."""
+    """Return the messages as dictionaries, each with its destination."""
     return [
         (json.loads(command.message.removeprefix("__RAFT__:")), command.destination)
         for command in provider.sent

@@ -1,4 +1,4 @@
-"""Updates that are left out change nothing but the number of events."""
+"""Skipped updates change only the number of events."""
 
 import pytest
 from hypothesis import given
@@ -15,7 +15,7 @@ from gradysim.simulator.simulation import SimulationBuilder, SimulationConfigura
 
 
 def ran(kind, plans, *, telemetry_s=0, duration=10, rate=0.01, delay=0):
-    """Run a node for each plan, {time: order}; return how many events ran, and what happened where."""
+    """Run a node for each plan, {time: command}; return the number of events, and the callbacks."""
     diary = []
 
     class Planned(IProtocol):
@@ -65,7 +65,7 @@ def ran(kind, plans, *, telemetry_s=0, duration=10, rate=0.01, delay=0):
 
 
 def both(plans, **world):
-    """Return the number of events at rest, given that all else is as ever."""
+    """Return the number of events at rest, after checking that all else is equal."""
     as_ever = ran(MasslessMobilityHandler, plans, **world)
     resting = ran(IdleSkippingMobilityHandler, plans, **world)
     assert resting[1] == as_ever[1]
@@ -74,7 +74,7 @@ def both(plans, **world):
 
 
 def test_where_nothing_happens_there_are_no_updates():
-    """But one each 2^20, so that whoever runs the simulation has a turn."""
+    """Except one every 2^20 updates, so that the caller of the simulation gets a turn."""
     assert both([{}, {}], duration=100) == 1
     assert ran(IdleSkippingMobilityHandler, [{}], duration=100_000)[0] == 1 + 9
 
@@ -98,7 +98,7 @@ def test_there_are_updates_while_one_flies():
 
 
 def test_the_first_step_is_made_when_it_would_be_made():
-    """By an order at the time of an update the step follows at once, as the timer was set first."""
+    """A command at the time of an update takes effect at once, since the timer was set first."""
     assert both([{5.0: GotoCoordsMobilityCommand(1, 0, 0), 5.01: None, 5.015: None}]) < 50
 
 

@@ -91,7 +91,7 @@ def test_the_target_is_reached_exactly(world, handler):
 
 
 def test_a_target_at_exactly_one_step_is_reached_exactly(world, handler):
-    target = (5.9, 7.1, 0.8)  # x / distance * distance is not x, by rounding
+    target = (5.9, 7.1, 0.8)  # by rounding, x / distance * distance is not x
     node = world.node(0, handler=handler)
     handler.handle_command(GotoCoordsMobilityCommand(*target), node)
     handler.handle_command(SetSpeedMobilityCommand(2 * math.sqrt(squared_distance((0, 0, 0), target))), node)

@@ -11,7 +11,7 @@ from python.quiet_protocol import Quiet
 
 
 class Shown(Quiet):
-    """Tracks how many seconds it has lived."""
+    """Tracks the seconds since its start."""
 
     def initialize(self):
         self.handle_timer("second")
@@ -45,7 +45,7 @@ class Viewer:
 
 @pytest.fixture
 def shown():
-    """Make handlers that listen on a free port, and simulations that they show; all is stopped in the end."""
+    """Return a function that makes shown simulations on a free port; all are stopped at the end."""
     stack = ExitStack()
 
     class Show:

@@ -1,4 +1,4 @@
-"""The connection to a viewer, with a real one at its other end."""
+"""The connection to a viewer, tested with a real one."""
 
 import functools
 import random
@@ -26,6 +26,6 @@ def test_looking_for_lost_viewers_draws_no_random_number_of_the_run(monkeypatch)
         deadline = time.monotonic() + 30
         while connection.latency == 0 and time.monotonic() < deadline:
             time.sleep(0.001)
-        assert connection.latency > 0  # It has answered.
+        assert connection.latency > 0  # it has answered
     server.stop()
     assert random.getstate() == state

@@ -99,7 +99,7 @@ def test_commands_without_any_viewer_stay_in_the_queue(shown):
 
 @contextmanager
 def running(simulation):
-    """The simulation runs in a thread of its own."""
+    """Run the simulation in a separate thread."""
     stop = threading.Event()
 
     def run():
@@ -117,7 +117,7 @@ def running(simulation):
 
 @pytest.fixture
 def paused(shown):
-    """A simulation that a viewer has paused, in a thread; in the end it goes on."""
+    """Return a simulation in a thread, paused by a viewer; it continues at the end."""
     show = shown()
     simulation = show.start(duration=1e9)
     server = show.handler._server

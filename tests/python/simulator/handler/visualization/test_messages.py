@@ -11,7 +11,7 @@ from python.any_value import anything
 
 
 class Bearer:
-    """A protocol, its provider and its encapsulator in one."""
+    """Protocol, provider and encapsulator in one object."""
 
     def __init__(self, tracked_variables):
         self.tracked_variables = tracked_variables

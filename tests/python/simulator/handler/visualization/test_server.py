@@ -122,7 +122,7 @@ def test_who_comes_later_gets_the_last_command_of_each_kind_and_node(server, com
 
 
 def code_of(address, **headers):
-    """The HTTP code of the answer to a GET request."""
+    """Return the HTTP status of a GET request."""
     try:
         with urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=30) as answer:
             return answer.status
@@ -188,7 +188,7 @@ def never_reads(server):
 
 
 def fill_buffers(server):
-    """Publish until the buffers on the way to viewers that do not read are full."""
+    """Publish until the buffers of viewers that do not read are full."""
     for number in range(1000):
         server.publish(f"{number} {'x' * 2_000_000}")
         time.sleep(0.1)
@@ -211,7 +211,7 @@ def test_a_hundred_clients_of_all_kinds_end_with_the_server(server):
     threads = threading.active_count()
     with ExitStack() as clients:
         for _ in range(25):
-            clients.enter_context(socket.create_connection(("127.0.0.1", server.port)))  # says nothing
+            clients.enter_context(socket.create_connection(("127.0.0.1", server.port)))  # sends nothing
             asks = clients.enter_context(socket.create_connection(("127.0.0.1", server.port)))
             asks.sendall(f"GET / HTTP/1.1\r\nHost: localhost:{server.port}\r\n\r\n".encode())
             clients.enter_context(never_reads(server))
@@ -222,7 +222,7 @@ def test_a_hundred_clients_of_all_kinds_end_with_the_server(server):
         server.stop()
         assert time.monotonic() - started < 10
         assert all(list(viewer)[-1] == "the end" for viewer in reading)
-    while threading.active_count() >= threads:  # those of the clients
+    while threading.active_count() >= threads:  # the threads of the clients
         time.sleep(0.01)
 
 
