@@ -1,8 +1,8 @@
 """Bianchi's model of saturation throughput: n stations that always have a frame to send.
 
 Source: G. Bianchi, "Performance analysis of the IEEE 802.11 distributed coordination function", IEEE JSAC
-18(3), 2000: the chance to send in a slot and the chance of a collision as each other's function, and the
-throughput that follows. Retries never end, there is no noise, and everybody hears everybody.
+18(3), 2000: the probabilities of sending in a slot and of a collision as functions of each other, and the
+resulting throughput. Retries are unlimited, there is no noise, and all stations hear each other.
 """
 
 from dataclasses import dataclass
@@ -10,21 +10,21 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Timing:
-    """What the model needs to know of the channel access; times in seconds."""
+    """Parameters of the channel access; times in seconds."""
 
     slot_s: float
     success_s: float
     """Data frame, SIFS, ACK and DIFS."""
     collision_s: float
-    """Data frame, and the time after it until backoffs count again."""
+    """Data frame, and the time until backoffs count again."""
     cw_min: int
     """First backoffs are 0 to cw_min slots."""
     doublings: int
-    """How often the window doubles."""
+    """Number of times the window doubles."""
 
 
 def send_probability(p: float, timing: Timing) -> float:
-    """The chance that a station sends in a slot when its frames collide with chance p."""
+    """Return the probability that a station sends in a slot, if its frames collide with probability p."""
     window = timing.cw_min + 1
     # (1 - (2p)^m) / (1 - 2p) as a sum, which is defined for p = 1/2 as well.
     growth = sum((2 * p) ** stage for stage in range(timing.doublings))
@@ -32,7 +32,7 @@ def send_probability(p: float, timing: Timing) -> float:
 
 
 def collision_probability(stations: int, timing: Timing) -> float:
-    """The chance that a frame collides, by bisection: p = 1 - (1 - send_probability(p))^(n-1)."""
+    """Return the collision probability, by bisection: p = 1 - (1 - send_probability(p))^(n-1)."""
     low, high = 0.0, 1.0
     for _ in range(60):
         p = (low + high) / 2
@@ -44,7 +44,7 @@ def collision_probability(stations: int, timing: Timing) -> float:
 
 
 def throughput_bps(stations: int, payload_bits: float, timing: Timing) -> float:
-    """Payload that arrives, in bits per second, of all stations together."""
+    """Return the received payload of all stations together, in bits per second."""
     send = send_probability(collision_probability(stations, timing), timing)
     idle = (1 - send) ** stations
     success = stations * send * (1 - send) ** (stations - 1)

@@ -1,4 +1,4 @@
-"""What the comparisons share: they report findings, and with --verify they draw pictures of them."""
+"""Fixtures of the comparisons: they report findings, and with --verify they draw pictures."""
 
 import re
 from collections.abc import Callable
@@ -27,7 +27,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out what does nothing but draw when no pictures are wanted, as matplotlib may not be there."""
+    """Skip tests that only draw if no pictures are requested, since matplotlib may be missing."""
     only_draws = collection_path.name.endswith("_picture.py")
     return True if only_draws and not config.getoption("--verify") else None
 
@@ -39,7 +39,7 @@ def _engine() -> None:
 
 @pytest.fixture
 def report(record_property: Callable[[str, object], None]) -> Callable[[Finding], None]:
-    """`report(finding)` writes the finding down, and fails the test if it does not agree."""
+    """`report(finding)` records the finding, and fails the test if it does not agree."""
 
     def write_down(finding: Finding) -> None:
         record_property("finding", finding.to_json())
@@ -50,7 +50,7 @@ def report(record_property: Callable[[str, object], None]) -> Callable[[Finding]
 
 @pytest.fixture
 def picture(request: pytest.FixtureRequest) -> Callable[[str, Callable[[Path], None]], None]:
-    """`picture(name, draw)` calls `draw(path of the file)`, when pictures are wanted."""
+    """`picture(name, draw)` calls `draw(path of the file)` if pictures are requested."""
 
     def draw_if_wanted(name: str, draw: Callable[[Path], None]) -> None:
         if request.config.getoption("--verify"):

@@ -1,6 +1,6 @@
-"""The distributions of fading and the correlation in time, in closed form, apart from the engine.
+"""Distributions of fading and the correlation in time, in closed form, independent of the engine.
 
-Gains are ratios of powers to that of free space.
+Gains are relative to the power in free space.
 """
 
 from collections.abc import Callable
@@ -19,21 +19,21 @@ class Model:
     label: str
     fields: tuple[tuple[str, float], ...]
     distribution: Distribution
-    """The share of gains up to a gain."""
+    """Cumulative distribution function of the gain."""
 
 
 def shadowing(sigma_db: float) -> Distribution:
-    """A normal distribution of decibels."""
+    """Normal distribution of decibels."""
     return lambda gain: (1 + erf(10 * log10(gain) / sigma_db / sqrt(2))) / 2
 
 
 def rayleigh(gain: float) -> float:
-    """Powers are exponentially distributed."""
+    """Exponential distribution of powers."""
     return 1 - exp(-gain)
 
 
 def rician(k: float) -> Distribution:
-    """A sum of gamma distributions over a Poisson distributed number of additional degrees of freedom.
+    """Sum of gamma distributions over a Poisson distributed number of additional degrees of freedom.
 
     2 (K + 1) times the gain is chi-square distributed with 2 degrees of freedom and noncentrality 2 K.
     Source: N. L. Johnson, S. Kotz, N. Balakrishnan, "Continuous Univariate Distributions" 2, 1995, 29.3.
@@ -54,9 +54,9 @@ def rician(k: float) -> Distribution:
 
 
 def gamma(shape: float) -> Distribution:
-    """Nakagami's m: gamma distributed powers of mean 1, by Simpson's rule on the density over √x.
+    """Nakagami's m: gamma distributed powers with mean 1, by Simpson's rule on the density over √x.
 
-    x = t² takes the density's pole at 0 away, which is there for m < 1.
+    x = t² removes the pole of the density at 0, which exists for m < 1.
     """
     steps, top = 20_000, sqrt(80 / shape + 10)
     width = top / steps
@@ -85,9 +85,9 @@ def gamma(shape: float) -> Distribution:
 
 
 def correlation(lag: float) -> float:
-    """Of the normal numbers behind the fading, `lag` coherence times apart, averaged over the phase.
+    """Correlation of the normal numbers behind fading at `lag` coherence times, averaged over the phase.
 
-    Numbers of their own at the borders of intervals, weighted with cosine and sine in between.
+    Independent numbers at the borders of intervals, weighted with cosine and sine in between.
     """
     if lag >= 2:
         return 0.0
@@ -105,4 +105,4 @@ MODELS = (
     Model("NakagamiFading", "Nakagami, m = 1", (("shape_factor", 1.0),), rayleigh),
     Model("NakagamiFading", "Nakagami, m = 3.3", (("shape_factor", 3.3),), gamma(3.3)),
 )
-"""What is compared."""
+"""Compared models."""

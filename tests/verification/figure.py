@@ -1,4 +1,4 @@
-"""One look for all pictures. Imported only where pictures are drawn: matplotlib is no need of the tests."""
+"""Common style of all pictures. Imported only for drawing: the tests do not need matplotlib."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 mpl.use("agg")
 
 OURS, INET, NS3, MODEL = "#1b6ca8", "#d1495b", "#2e933c", "#777777"
-"""Colours: always the same one for the same source."""
+"""Colors: the same one for the same source in all pictures."""
 
 
 def save(
@@ -21,7 +21,7 @@ def save(
     width: float = 4.5,
     height: float = 3.5,
 ) -> None:
-    """Draw panels, so many in a row, and write them to `path`; the same data gives the same bytes.
+    """Draw panels, `columns` in a row, and write them to `path`; the same data gives the same bytes.
 
     Width and height are those of a panel, in inches.
     """

@@ -1,4 +1,4 @@
-"""What one comparison found, with its tolerance and the reason for the tolerance."""
+"""Result of one comparison, with its tolerance and the reason for the tolerance."""
 
 import json
 from dataclasses import asdict, dataclass
@@ -9,15 +9,15 @@ class Finding:
     """A row of the table in docs/verification/README.md."""
 
     comparison: str
-    """What is compared with what."""
+    """Compared quantities."""
     number: str
-    """The number that was measured, with its unit."""
+    """Measured number, with its unit."""
     tolerance: str
-    """What it has to keep within."""
+    """Tolerance of the number."""
     reason: str
-    """Why that tolerance and no other."""
+    """Reason for the tolerance."""
     agrees: bool
-    """Whether it does."""
+    """Whether the number is within the tolerance."""
 
     def __str__(self) -> str:
         verdict = "agrees" if self.agrees else "DIFFERS"
@@ -25,21 +25,21 @@ class Finding:
 
     @property
     def row(self) -> str:
-        """The row as Markdown."""
+        """Return the row as Markdown."""
         verdict = "agrees" if self.agrees else "**differs**"
         return f"| {self.comparison} | {self.number} | {self.tolerance} | {verdict} | {self.reason} |"
 
     def to_json(self) -> str:
-        """As text; the inverse is `from_json`."""
+        """Return the finding as JSON; the inverse of `from_json`."""
         return json.dumps(asdict(self))
 
     @classmethod
     def from_json(cls, text: str) -> "Finding":
-        """The finding of a text made by `to_json`."""
+        """Return the finding of a string made by `to_json`."""
         return cls(**json.loads(text))
 
 
 def table(findings: list[Finding]) -> str:
-    """The table as Markdown, in the order given."""
+    """Return the table as Markdown, in the given order."""
     head = "| comparison | measured | tolerance | verdict | why that tolerance |\n|---|---|---|---|---|\n"
     return head + "".join(f"{finding.row}\n" for finding in findings)

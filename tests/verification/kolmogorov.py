@@ -1,11 +1,11 @@
-"""Whether a sample follows a distribution: the Kolmogorov-Smirnov test."""
+"""The Kolmogorov-Smirnov test of a sample's distribution."""
 
 from collections.abc import Callable, Sequence
 from math import exp, sqrt
 
 
 def ks_distance(sample: Sequence[float], distribution: Callable[[float], float]) -> float:
-    """The largest difference between the sample's distribution function and the given one."""
+    """Return the largest difference between the sample's distribution function and the given one."""
     ordered = sorted(sample)
     count = len(ordered)
     return max(
@@ -15,7 +15,7 @@ def ks_distance(sample: Sequence[float], distribution: Callable[[float], float])
 
 
 def ks_p(distance: float, count: int) -> float:
-    """The chance that a sample of `count` values is that far off or farther, two-sided.
+    """Return the probability of a distance at least as large for a sample of `count` values, two-sided.
 
     Source: M. A. Stephens, "Use of the Kolmogorov-Smirnov, Cramer-von Mises and related statistics without
     extensive tables", Journal of the Royal Statistical Society B 32, 1970: Kolmogorov's limit, corrected for

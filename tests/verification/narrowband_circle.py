@@ -1,10 +1,10 @@
-"""Stations on a circle of 5 m around a sink: what narrowband_contention.ini leaves open."""
+"""Stations on a circle of 5 m around a sink, as settings for narrowband_contention.ini."""
 
 from math import cos, pi, sin
 
 
 def circle(stations: int, acks: bool) -> list[str]:
-    """The overrides for so many stations."""
+    """Return the overrides for that many stations."""
     return [
         f"*.stations.count = {stations}",
         f"**.wlan[*].mac.useMACAcks = {str(acks).lower()}",

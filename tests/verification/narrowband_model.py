@@ -1,13 +1,12 @@
-"""Unslotted CSMA/CA of IEEE 802.15.4 among stations that all hear each other, in a hundred lines of Python.
+"""Unslotted CSMA/CA of IEEE 802.15.4 for stations that all hear each other, in a hundred lines of Python.
 
-Written from the definitions, apart from the engine: there are no positions, no powers and no propagation, and
-what overlaps on the air is lost. All times are in microseconds.
+Written from the definitions, independent of the engine: there are no positions, powers or propagation, and
+frames that overlap are lost. All times are in microseconds.
 
-A station waits 0 to 2^BE - 1 backoff periods of 320 us, with BE = 3, 4, 5, 5, 5, and assesses the channel
-for 128 us after each wait. It is busy if something is on the air at the end of that; after the fifth time
-the message is given up. Otherwise its frame goes on the air 192 us later, whatever happens meanwhile. With
-ACKs, one of 352 us follows 192 us after a frame that arrived; without it the frame is sent again, three
-times at most.
+A station waits 0 to 2^BE - 1 backoff periods of 320 us, with BE = 3, 4, 5, 5, 5. After each wait it assesses
+the channel for 128 us. The channel is busy if there is a frame on the air at the end. After the fifth time
+the message is dropped. Otherwise its frame starts 192 us later in any case. With ACKs, an ACK of 352 us
+follows 192 us after a received frame. Without an ACK the frame is repeated, three times at most.
 
 Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments), tables 22, 85 and 86.
 """
@@ -25,7 +24,7 @@ FIRST_WITHIN_US = 5000
 
 @dataclass(frozen=True)
 class Rules:
-    """Where simulators differ."""
+    """Differences between simulators."""
 
     acks: bool
     rest_us: float
@@ -33,33 +32,33 @@ class Rules:
     ack_wait_us: float
     """From the end of a frame to its repetition: 864 in the standard and in ns-3, 560 in INET."""
     gives_up_new_frames: bool = True
-    """INET starts over, for ever, with a frame that was never on the air."""
+    """INET retries without a limit while the frame has not been on the air."""
 
 
 @dataclass
 class Counts:
-    """What became of the messages."""
+    """Outcomes of the messages."""
 
     received: int = 0
-    """Each counted once."""
+    """Received messages, each counted once."""
     failed_access: int = 0
     failed_retries: int = 0
     done: int = 0
-    """Sent or given up."""
+    """Sent or dropped messages."""
     frames: int = 0
-    """Transmissions, repetitions included."""
+    """Transmissions, including repetitions."""
 
 
 @dataclass
 class Air:
-    """What is on it and what happens next."""
+    """Frames on the air, and pending events."""
 
     frame_us: float
     rules: Rules
     random: Random
     counts: Counts = field(default_factory=Counts)
     damaged: dict[int, bool] = field(default_factory=dict)
-    """Each transmission that is on the air: whether it met another one."""
+    """For each transmission on the air, whether it overlapped with another one."""
     _events: list[tuple[float, int, Callable[[float], None]]] = field(default_factory=list)
     _number: int = 0
 
@@ -73,7 +72,7 @@ class Air:
             action(time)
 
     def transmit(self, start: float, duration: float, done: Callable[[float, bool], None]) -> None:
-        """Calls `done` at the end with whether it arrived."""
+        """Call `done` at the end, with whether the frame arrived."""
         met = bool(self.damaged)
         self.damaged = dict.fromkeys(self.damaged, True)
         self._number += 1
@@ -83,7 +82,7 @@ class Air:
 
 
 class Station:
-    """Sends message after message."""
+    """Sends messages without a pause."""
 
     def __init__(self, air: Air) -> None:
         self._air = air
@@ -153,7 +152,7 @@ class Station:
 
 
 def contend(stations: int, frame_us: float, rules: Rules, duration_s: float, seed: int) -> Counts:
-    """So many stations that always have a message, each from a random instant of the first 5 ms on."""
+    """Simulate stations that always have a message, each from a random instant of the first 5 ms on."""
     air = Air(frame_us, rules, Random(seed))
     for _ in range(stations):
         Station(air)

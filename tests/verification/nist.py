@@ -1,6 +1,6 @@
-"""The closed form of reception: the NIST error model and free space, in plain formulas.
+"""Closed form of reception: the NIST error model and free space.
 
-Written from the papers, apart from the engine, to check it.
+Written from the papers, independent of the engine, to verify it.
 
 Sources: G. Pei and T. R. Henderson, "Validation of OFDM error rate model in ns-3", 2010 (bit errors; the
 union bounds are those of the 802.11 convolutional code with generators 133, 171 and its punctured versions).
@@ -11,7 +11,7 @@ from math import ceil, erfc, exp, log1p, pi, sqrt
 
 SPEED_OF_LIGHT_MPS = 299_792_458.0
 
-# Mbps: (share of symbol errors, spread s of the constellation: p = share * erfc(sqrt(snir / s)) / 2, code)
+# Mbps: (ratio of symbol errors, spread s of the constellation: p = ratio * erfc(sqrt(snir / s)) / 2, code)
 _OFDM = {
     6: (1.0, 1, "1/2"),
     9: (1.0, 1, "3/4"),
@@ -61,7 +61,7 @@ DSSS_RATES_MBPS = (1.0, 2.0, 5.5, 11.0)
 
 
 def bit_error(rate_mbps: float, snir: float) -> float:
-    """The chance that one data bit is wrong after decoding; `snir` is linear."""
+    """Return the probability that a data bit is wrong after decoding; `snir` is linear."""
     if rate_mbps in DSSS_RATES_MBPS:
         return _dsss_bit_error(rate_mbps, snir)
     share, spread, code = _OFDM[int(rate_mbps)]
@@ -86,7 +86,7 @@ def _dsss_bit_error(rate_mbps: float, snir: float) -> float:
 
 
 def success_probability(rate_mbps: float, snir: float, mpdu_bytes: int) -> float:
-    """The chance that a frame is received, header and data; `snir` is linear and constant over the frame."""
+    """Return the probability of receiving a frame, header and data; `snir` is linear and constant."""
     if rate_mbps in DSSS_RATES_MBPS:
         header_bits, header_rate, data_bits = 48, 1.0, 8 * mpdu_bytes
     else:
@@ -100,6 +100,6 @@ def success_probability(rate_mbps: float, snir: float, mpdu_bytes: int) -> float
 
 
 def received_power_w(tx_power_w: float, distance_m: float, carrier_hz: float = 2.412e9) -> float:
-    """Power that arrives over free space with isotropic antennas."""
+    """Return the received power over free space with isotropic antennas."""
     wavelength_m = SPEED_OF_LIGHT_MPS / carrier_hz
     return tx_power_w * (wavelength_m / (4 * pi * distance_m)) ** 2

@@ -1,4 +1,4 @@
-"""The figures of other simulators that we compare with: the CSV files of the folder reference."""
+"""Figures of other simulators for comparisons: the CSV files of the directory reference."""
 
 import csv
 from pathlib import Path
@@ -9,9 +9,9 @@ _FOLDER = Path(__file__).parent / "reference"
 
 
 def rows(name: str, **wanted: object) -> list[Row]:
-    """The rows of reference/NAME.csv, those only whose columns have the values that are wanted.
+    """Return the rows of reference/NAME.csv whose columns have the given values.
 
-    Raises ValueError if there are none: a comparison with nothing agrees with everything.
+    Raises ValueError if there are none: a comparison with nothing would always agree.
     """
     with (_FOLDER / f"{name}.csv").open(newline="") as file:
         found = [

@@ -15,13 +15,13 @@ from gradysim.scenario.protocol_modules import origin_of
 _ROOT = Path(__file__).parents[2]
 FOLDER = _ROOT / "configs" / "reference"
 _NATIVE_NAMES = {row.python_class: row.name for row in _netsim.native_protocols()}
-"""{class in Python, as "file.py:Class": the engine's own protocol that does the same}"""
+"""{class in Python, as "file.py:Class": the equivalent native protocol}"""
 
 
 def load_reference(
     name: str, config: str = "General", *, run: int = 0, seed: int = 0, overrides: Iterable[str] = ()
 ) -> Scenario:
-    """One run of configs/reference/NAME.ini; `overrides` are lines that come before those of the file."""
+    """Return one run of configs/reference/NAME.ini; `overrides` are lines before those of the file."""
     file = FOLDER / f"{name}.ini"
     return load_scenarios(file, config, runs=[run], overrides=[*overrides, f"seed-set={seed}"])[0]
 
@@ -29,10 +29,10 @@ def load_reference(
 def run_reference(
     name: str, config: str = "General", *, run: int = 0, seed: int = 0, overrides: Iterable[str] = ()
 ) -> RunResult:
-    """The result of `load_reference` with the same arguments.
+    """Return the result of `load_reference` with the same arguments.
 
-    Protocols that the engine has itself are the engine's: they give the same results, as their own tests say,
-    in a fraction of the time.
+    Native protocols replace their Python equivalents: they give the same results, as their tests show, in a
+    fraction of the time.
     """
     scenario = load_reference(name, config, run=run, seed=seed, overrides=overrides)
     return gradysim.integrated.run.run(
@@ -49,7 +49,7 @@ def _natively(node: NodeSpec) -> NodeSpec:
 
 
 def tracked(result: RunResult, variable: str, group: str = "") -> list[int]:
-    """The variable of each node that tracks it, of one group or of all."""
+    """Return the variable of each node that tracks it, in one group or in all."""
     return [
         int(str(node.tracked_variables[variable]))
         for node in result.nodes
@@ -58,6 +58,6 @@ def tracked(result: RunResult, variable: str, group: str = "") -> list[int]:
 
 
 def received_in_error(result: RunResult) -> int:
-    """Broadcast frames that a radio had locked on and then lost."""
+    """Return the broadcast frames that a radio locked on to and then lost."""
     fates = result.fates["frames"]["broadcast"]
     return fates["noise"] + fates["interference"]

@@ -1,9 +1,9 @@
-"""How far two samples of the same thing may differ: tests of significance.
+"""Differences between two samples of the same quantity: significance tests.
 
-Each gives a p-value, the chance of a difference at least as large if there is none. A family of m
-comparisons keeps its confidence if each p-value is above (1 - confidence) / m (Bonferroni), whether or not
-the comparisons depend on each other. Those with the reference runs do: INET used the same random numbers at
-every point of a curve.
+Each gives a p-value, the probability of a difference at least as large if there is none. A family of m
+comparisons keeps its confidence if each p-value is above (1 - confidence) / m (Bonferroni). This holds also
+for dependent comparisons, such as those with the reference runs: INET used the same random numbers at every
+point of a curve.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,17 +16,17 @@ Comparison = TypeVar("Comparison")
 
 
 def least_p(comparisons: int, confidence: float = CONFIDENCE) -> float:
-    """The p-value that each of so many comparisons has to reach."""
+    """Return the p-value that each of that many comparisons must reach."""
     return (1 - confidence) / comparisons
 
 
 def weakest(p_values: Mapping[Comparison, float]) -> tuple[Comparison, float]:
-    """The comparison with the least p-value, and that."""
+    """Return the comparison with the smallest p-value, and the p-value."""
     return min(p_values.items(), key=lambda item: item[1])
 
 
 def fisher_p(hits: int, trials: int, other_hits: int, other_trials: int) -> float:
-    """Two counts of successes, of the same chance? Fisher's exact test, two-sided."""
+    """Compare two counts of successes: Fisher's exact test, two-sided."""
     total, all_hits = trials + other_trials, hits + other_hits
 
     def log_chance(count: int) -> float:
@@ -36,13 +36,13 @@ def fisher_p(hits: int, trials: int, other_hits: int, other_trials: int) -> floa
             - _log_choose(total, all_hits)
         )
 
-    limit = log_chance(hits) + 1e-7  # as likely as what was seen, but for rounding
+    limit = log_chance(hits) + 1e-7  # as likely as the observation, except for rounding
     possible = range(max(0, all_hits - other_trials), min(trials, all_hits) + 1)
     return min(1.0, sum(exp(chance) for count in possible if (chance := log_chance(count)) <= limit))
 
 
 def welch_p(sample: Sequence[float], other: Sequence[float]) -> float:
-    """Two means of samples with possibly different spread: Welch's t test, two-sided."""
+    """Compare two means of samples with possibly different variance: Welch's t test, two-sided."""
     errors = [variance(values) / len(values) for values in (sample, other)]
     t = abs(fmean(sample) - fmean(other)) / sqrt(sum(errors))
     freedom: float = sum(errors) ** 2 / sum(
@@ -52,7 +52,7 @@ def welch_p(sample: Sequence[float], other: Sequence[float]) -> float:
 
 
 def _student_tail(t: float, freedom: float) -> float:
-    """The chance of a value above t >= 0 in Student's distribution, by Simpson's rule from 0 to t."""
+    """Return the probability of a value above t >= 0 in Student's distribution, by Simpson's rule."""
     factor = exp(lgamma((freedom + 1) / 2) - lgamma(freedom / 2)) / sqrt(freedom * pi)
     steps = 2000
     width = t / steps

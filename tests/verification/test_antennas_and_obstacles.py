@@ -20,7 +20,7 @@ STATION = (-60.0, 8.0, 3.0)
 HALL = ((0.0, -20.0), (30.0, -20.0), (30.0, 5.0), (12.0, 25.0), (0.0, 25.0))
 HALL_TOP_M = 12.0
 INNER_WALLS = ((0.3, -19.7), (29.7, -19.7), (29.7, 4.9), (11.87, 24.7), (0.3, 24.7))
-"""Of a hall with walls of 30 cm."""
+"""Inner walls of a hall with walls of 30 cm."""
 ANTENNAS: tuple[tuple[str, dict[str, float | str]], ...] = (
     ("DipoleAntenna", {"wire_axis": "y"}),
     ("DipoleAntenna", {"wire_axis": "y", "length_m": WAVELENGTH_M / 2}),
@@ -31,7 +31,7 @@ ANTENNAS: tuple[tuple[str, dict[str, float | str]], ...] = (
 
 
 def engine_pattern(typename: str, fields: dict[str, float | str]) -> Callable[[float], float]:
-    """Gain over the angle from x towards y."""
+    """Return the gain over the angle from x towards y."""
     from gradysim._netsim import AntennaConfig, antenna_gain
 
     config = AntennaConfig()
@@ -101,7 +101,7 @@ def free_space(a: tuple[float, float, float], b: tuple[float, float, float]) -> 
 
 
 def through_wall(cosine: float, thickness_m: float, permittivity: complex) -> float:
-    """Both faces by Fresnel's formulas and the field's decay e^(-j k √ε d) straight from one to the other."""
+    """Return the loss of both faces by Fresnel's formulas, and of the field's decay e^(-j k √ε d)."""
     root = sqrt(permittivity - (1 - cosine**2))
     across = abs((cosine - root) / (cosine + root)) ** 2
     along = abs((permittivity * cosine - root) / (permittivity * cosine + root)) ** 2
@@ -144,7 +144,7 @@ def test_a_wall(report: Callable[[Finding], None]) -> None:
 
 
 def is_in_shadow(place: tuple[float, float, float]) -> bool:
-    """Looks at many points of the line of sight, one by one."""
+    """Check many points of the line of sight, one by one."""
     steps = 4000
     for step in range(1, steps):
         x, y, z = (p + (q - p) * step / steps for p, q in zip(STATION, place, strict=True))
@@ -190,7 +190,7 @@ def draw(path: Path) -> None:
         reach = 0.0
         for (typename, fields), name, color in zip(ANTENNAS, names, colors, strict=True):
             gain = engine_pattern(typename, fields)
-            # As a polar plot: the radius is the gain in decibels above -25 dB.
+            # Polar plot: the radius is the gain in decibels above -25 dB.
             radii = [max(10 * log10(max(gain(radians(angle)), 1e-9)) + 25, 0) for angle in degrees]
             reach = max(reach, *radii)
             axes.plot(

@@ -1,7 +1,7 @@
-"""Beacons with given positions and phases: what each node receives, against INET's count for that node.
+"""Beacons with given positions and phases: receptions of each node, against INET's count for that node.
 
-Nothing here is random but the backoffs of the few frames that meet a busy medium, and the bit errors of the
-few that are received near the limit.
+Only the backoffs of the few frames that meet a busy medium are random, and the bit errors of the few frames
+that are received near the limit.
 """
 
 from collections.abc import Callable
@@ -28,12 +28,12 @@ def result(nodes: int) -> RunResult:
 
 
 def relative(ours: int, theirs: int) -> float:
-    """The difference as a part of theirs; 0 where nothing is heard in either."""
+    """Return the difference relative to theirs; 0 if both are 0."""
     return 0.0 if ours == theirs else (ours - theirs) / theirs
 
 
 def counts(nodes: int) -> list[tuple[int, int]]:
-    """What each node received here and in INET."""
+    """Return the receptions of each node here and in INET."""
     theirs = [int(row["received"]) for row in rows(f"inet_beacons_g24_{nodes}")]
     return list(zip(tracked(result(nodes), "received"), theirs, strict=True))
 

@@ -1,4 +1,4 @@
-"""Our implementation of Bianchi's model, against figures calculated elsewhere."""
+"""Our implementation of Bianchi's model, against independent figures."""
 
 import pytest
 

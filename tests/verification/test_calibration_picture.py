@@ -1,4 +1,4 @@
-"""The picture of `gradysim calibrate`. Only with --verify: the other tests do without matplotlib."""
+"""Picture of `gradysim calibrate`. Only with --verify: the other tests do not need matplotlib."""
 
 from pathlib import Path
 

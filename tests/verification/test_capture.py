@@ -1,4 +1,4 @@
-"""A strong and a weak frame overlap at a receiver that detects preambles: which one it gets, against ns-3."""
+"""A strong and a weak frame overlap at a receiver with preamble detection: its receptions, against ns-3."""
 
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -29,7 +29,7 @@ CERTAIN_DIFFERENCES_DB = ("0", "3", "6", "24", "30")
 
 @cache
 def measure(config: str, diff_db: int, pairs: int, seed: int) -> tuple[int, int]:
-    """Strong and weak frames that the receiver got."""
+    """Return the strong and weak frames that the receiver got."""
     end_s = 1 + pairs * INTERVAL_S
     result = run_reference(
         "capture",
@@ -46,7 +46,7 @@ def measure(config: str, diff_db: int, pairs: int, seed: int) -> tuple[int, int]
 
 
 def config_of(row: Row) -> str:
-    """The configuration of whose runs, one for each difference, a row is one."""
+    """Return the configuration of a row; it has one run for each difference."""
     offset_us = int(row["offset_us"])
     when = f"{'Earlier' if offset_us < 0 else 'Later'}{abs(offset_us)}us" if offset_us else "AtOnce"
     return f"Rate{row['bitrate_mbps']}{'FrameCapture' if row['frame_capture'] == '1' else ''}{when}"
@@ -59,7 +59,7 @@ def test_each_row_has_its_run() -> None:
 
 
 def certain_rows() -> Iterator[Row]:
-    """24 and 54 Mbps, at differences where each frame is certain or hopeless in both error models."""
+    """Yield 24 and 54 Mbps, at differences where reception is certain or impossible in both error models."""
     for rate in ("24", "54"):
         certain = {
             diff

@@ -1,4 +1,4 @@
-"""Beacons whose first sends fall into a short window, so that stations contend: against INET's ten seeds."""
+"""Beacons whose first sends are in a short window, so that stations contend: against INET's ten seeds."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.verify
 
 Window = tuple[int, int]
-"""In microseconds, and the number of nodes that send first within it."""
+"""In microseconds, and the number of nodes with their first send in it."""
 
 WINDOWS: dict[Window, str] = {(10_000, 50): "Window10ms", (2_000, 20): "Window2ms"}
 """{window: configuration}"""
@@ -30,7 +30,7 @@ CROWDED: dict[Window, str] = {
     (2_000, 50): "Window2ms50",
     (500, 50): "Window500us50",
 }
-"""The same, with so many collisions that it matters what EIFS is: configurations with INET's."""
+"""The same, with enough collisions that EIFS matters: configurations with INET's EIFS."""
 STANDARD_EIFS = "**.contention.inetEifs = false"
 """The default, for the configurations of CROWDED."""
 SEEDS = range(100)
@@ -55,7 +55,7 @@ class Samples:
 
 @cache
 def ours(window: Window, *overrides: str) -> list[tuple[int, int]]:
-    """Frames received and received in error by all nodes, for each seed."""
+    """Return the frames received and received in error by all nodes, for each seed."""
     scenario = load_reference("beacons", (WINDOWS | CROWDED)[window], overrides=overrides)
     results = (gradysim.integrated.run.run(replace(scenario, seed=seed)) for seed in SEEDS)
     return [(sum(tracked(result, "received")), received_in_error(result)) for result in results]
@@ -120,7 +120,7 @@ def draw(path: Path) -> None:
             if window in CROWDED:
                 columns["standard's\nEIFS"] = (MODEL, samples(window, column, STANDARD_EIFS).ours)
             for index, (color, values) in enumerate(columns.values()):
-                # Side by side in the order of the seeds; a bar for mean and standard error.
+                # Next to each other in the order of the seeds; a bar for mean and standard error.
                 places = [index + 0.6 * (k + 0.5) / len(values) - 0.3 for k in range(len(values))]
                 axes.plot(places, values, "o", color=color, ms=3, mfc="none", alpha=0.7)
                 axes.errorbar(

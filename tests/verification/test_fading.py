@@ -1,4 +1,4 @@
-"""Fading and shadowing: their distributions over links and over time, and their correlation in time.
+"""Fading and shadowing: distributions over links and over time, and correlation in time.
 
 Gains come from the engine's own propagation; closed forms from fading_models.py.
 """
@@ -31,7 +31,7 @@ LAGS = tuple(step / 8 for step in range(21))
 def gain_of(
     path_loss: str, fields: tuple[tuple[str, float], ...], seed: int = 1
 ) -> Callable[[int, float, int], float]:
-    """The factor that fading puts on free space, by (node at the other end, time, transmission)."""
+    """Return the factor of fading relative to free space, by (other node, time, transmission)."""
     from gradysim._netsim import MediumConfig, Propagation
 
     config = MediumConfig()
@@ -48,12 +48,12 @@ def gain_of(
 
 @cache
 def samples(model: Model) -> dict[str, list[float]]:
-    """Over links at one time, between two borders of intervals; over time on one link; over frames."""
+    """Return samples over links at one time between two borders of intervals, over time, and over frames."""
     gain = gain_of(model.path_loss, model.fields)
     fresh = gain_of(model.path_loss, (*model.fields, ("coherence_time_s", 0.0)))
     return {
         "links": [gain(node, 0.3 * COHERENCE_TIME_S, 0) for node in range(1, DRAWS + 1)],
-        # Independent from two coherence times on; a little more, so that all phases occur.
+        # Independent from two coherence times on; slightly more, so that all phases occur.
         "time": [gain(1, 2.137 * COHERENCE_TIME_S * step, 0) for step in range(DRAWS)],
         "frames": [fresh(1, 1.0, frame) for frame in range(DRAWS)],
     }
@@ -84,7 +84,7 @@ def test_distributions_are_those_of_the_models(
 
 @cache
 def measured_correlation() -> list[float]:
-    """Of shadowing in decibels, that is of the normal numbers, over links of different phases."""
+    """Return the correlation of shadowing in decibels, the normal numbers, over links of different phases."""
     gain = gain_of("LogNormalShadowing", (("sigma_db", 1.0),))
 
     def decibels(lag: float) -> list[float]:
@@ -156,7 +156,7 @@ def draw_distributions(path: Path) -> None:
     save(
         path,
         f"Fading on one link over time, {DRAWS:,} draws each: gradysim and the models' distributions",
-        *(draw(model) for model in MODELS if model.label != "Nakagami, m = 1"),  # which is Rayleigh
+        *(draw(model) for model in MODELS if model.label != "Nakagami, m = 1"),  # equal to Rayleigh
         height=2.8,
     )
 

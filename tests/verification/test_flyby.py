@@ -1,4 +1,4 @@
-"""Nodes in flight, against INET: which messages a receiver hears while it flies past a sender."""
+"""Flying nodes, against INET: messages that a receiver gets while it flies past a sender."""
 
 from collections.abc import Callable
 from functools import cache
@@ -15,7 +15,7 @@ SEEDS = range(3)
 
 @cache
 def heard(config: str, seed: int = 0) -> list[list[int]]:
-    """For each receiver the numbers of the messages that it hears."""
+    """Return the numbers of the received messages, for each receiver."""
     result = run_reference("flyby", config, seed=seed)
     times = [
         cast("list[float]", node.tracked_variables["received_at"])

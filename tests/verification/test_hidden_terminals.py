@@ -38,13 +38,13 @@ WHAT = {
 
 @cache
 def throughput_mbps(config: str) -> float:
-    """Payload that arrives, the mean over the seeds."""
+    """Return the received payload, averaged over the seeds."""
     runs = (run_reference("hidden", config, seed=seed) for seed in SEEDS)
     return fmean(sum(tracked(run, "received_bytes")) * 8 / MEASURED_S / 1e6 for run in runs)
 
 
 def ns3_mbps(config: str) -> float:
-    """The mean over ns-3's runs; of hidden stations those with the NIST error model, which is ours."""
+    """Return the mean over ns-3's runs; for hidden stations those with the NIST error model, as here."""
     topology, rts = CONFIGS[config]
     if topology == "hidden":
         return ns3_hidden_mbps(rts, "Nist")
@@ -93,7 +93,7 @@ def test_with_its_table_of_error_rates_throughput_agrees_with_ns3_as_given(
 
 
 def test_ns3_with_its_default_error_model_is_the_run_that_we_were_given() -> None:
-    """Both tables describe the same network, so that only the error model is between us and the first."""
+    """Both tables describe the same network, so that only the error model differs."""
     for rts in (0, 1):
         given = fmean(float(row["throughput_mbps"]) for row in rows("ns3_hidden", topo="hidden", rts=rts))
         assert ns3_hidden_mbps(rts, "TableBased") == pytest.approx(given, rel=0.01)

@@ -22,14 +22,14 @@ SEEDS = range(6)
 BY_DEFAULT = "**.inetStationRetryCounters = false"
 HIDDEN = ("Hidden24", "Hidden24RtsCts", "Hidden6", "Hidden6RtsCts")
 CONFIGS = (*HIDDEN, "Pair24", "Pair24RtsCts", "Pair6", "Pair6RtsCts", "Alone24RtsCts", "Alone6RtsCts")
-"""Without RTS/CTS one station alone is part of the comparison of saturation throughput."""
+"""One station without RTS/CTS is part of the comparison of saturation throughput."""
 MEASURED = ("received", "frames")
 Counts = dict[str, int]
 
 
 @cache
 def counts(config: str, seed: int, *overrides: str) -> Counts:
-    """Messages that arrive, frames of the stations, RTS among them, and messages given up."""
+    """Return received messages, frames of the stations, RTS among them, and dropped messages."""
     result = run_reference("hidden_inet", config, seed=seed, overrides=overrides)
     frames = result.fates["frames"]
     return {
@@ -52,7 +52,7 @@ def inet(config: str, column: str) -> list[int]:
 
 
 def off(counts_of: Callable[[str, str], list[int]], config: str, column: str) -> float:
-    """By how much our mean is above INET's, relative to it."""
+    """Return the difference of our mean from INET's, relative to it."""
     return fmean(counts_of(config, column)) / fmean(inet(config, column)) - 1
 
 

@@ -1,4 +1,4 @@
-"""Broadcasts at random times within milliseconds, under the rules of ns-3: how many arrive, against ns-3."""
+"""Broadcasts at random times within milliseconds, under the rules of ns-3: receptions, against ns-3."""
 
 from collections.abc import Callable
 from functools import cache
@@ -22,12 +22,12 @@ CASES = [
     *((2, 1), (3, 1), (5, 1), (10, 1), (20, 1), (30, 1), (50, 1)),
     *((5, 10), (10, 10), (20, 10), (30, 10), (50, 10)),
 ]
-"""{nodes, longest delay in ms}: those of ns-3's table with enough losses to compare."""
+"""{nodes, longest delay in ms}: rows of ns-3's table with enough losses to compare."""
 
 
 @cache
 def losses(nodes: int, jitter_ms: int) -> tuple[float, ...]:
-    """Share of the copies that are lost, for each seed; those of large networks are fewer, to save time."""
+    """Return the ratio of lost receptions for each seed; large networks have fewer seeds, to save time."""
 
     def loss(seed: int) -> float:
         result = run_reference(

@@ -1,4 +1,4 @@
-"""Two overlapping frames at one receiver: which of them it locks on to, and whether that one survives."""
+"""Two overlapping frames at one receiver: which one it locks on to, and whether that one survives."""
 
 from collections.abc import Callable
 from functools import cache
@@ -25,7 +25,7 @@ MPDU_BYTES = 100
 
 @cache
 def measure(config: str, seed: int) -> tuple[int, int]:
-    """Frames that the receiver got, and got in error."""
+    """Return the frames that the receiver got, and got in error."""
     end_s = 1 + PAIRS * INTERVAL_S
     result = run_reference(
         "sir",
@@ -38,7 +38,7 @@ def measure(config: str, seed: int) -> tuple[int, int]:
 
 
 def config_of(row: Row) -> str:
-    """The configuration with the conditions of a row."""
+    """Return the configuration with the conditions of a row."""
     sir_db = f"{float(row['sir_db']):g}".replace(".", "_")
     when = {"-20": "", "0": "AtOnce", "20": "Later"}[row["strong_offset_us"]]
     return f"Rate{row['bitrate_mbps']}Sir{sir_db}{when}"
@@ -83,14 +83,14 @@ def test_counts_agree_with_inet(
 
 
 def closed_form(rate_mbps: float, strong_distance_m: float, weak_distance_m: float = 100.0) -> float:
-    """The chance that the strong frame survives the weak one, which covers nearly all of it."""
+    """Return the probability that the strong frame survives the weak one, which covers nearly all of it."""
     signal_w = received_power_w(TX_POWER_W, strong_distance_m)
     snir = signal_w / (NOISE_W + received_power_w(TX_POWER_W, weak_distance_m))
     return success_probability(rate_mbps, snir, MPDU_BYTES) if snir > 10**0.4 else 0.0
 
 
 def locked_first() -> list[tuple[int, Row]]:
-    """Rows in which the strong frame comes first and the weak one is heard."""
+    """Return rows in which the strong frame comes first and the weak one is above the sensitivity."""
     return [
         (index, row)
         for index, row in enumerate(rows("inet_sir"))

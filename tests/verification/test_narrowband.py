@@ -1,14 +1,14 @@
-"""IEEE 802.15.4 against the arithmetic of its times and the combinatorics of its first backoff.
+"""IEEE 802.15.4 against exact sums of its times and the distribution of its first backoff.
 
-What is compared with is exact, and made apart from the engine: sums of the durations of the standard, and the
-distribution of the least of n numbers.
+The reference values are exact and independent of the engine: sums of the durations of the standard, and the
+distribution of the minimum of n numbers.
 
 Goodput: a cycle is backoff (0 to 7 periods of 320 us), assessment (128 us), turnaround (192 us), frame
-(192 us + 32 us for each of its bytes) and, with ACKs, 192 us + 352 us.
+(192 us + 32 us for each byte) and, with ACKs, 192 us + 352 us.
 
-Contention: n devices begin in the same instant and look at the channel once. Those that drew the least number
-send; all others find them on the air, because a frame outlasts seven periods. A message arrives if its
-sender was alone with the least number. It is the lottery of nodes that answer one query: C. Buratti,
+Contention: n devices start at the same instant and assess the channel once. Those with the smallest number
+send. All others find the channel busy, because a frame is longer than seven periods. A message arrives if its
+sender alone had the smallest number. Nodes that answer one query have the same contention: C. Buratti,
 R. Verdone, "Performance Analysis of IEEE 802.15.4 Non Beacon-Enabled Mode", IEEE Transactions on Vehicular
 Technology 58 (2009).
 """
@@ -26,18 +26,18 @@ ROUNDS = 2000
 
 
 def cycle_s(payload_bytes: int, acks: bool) -> float:
-    """Mean time from one message to the next, without losses and propagation."""
+    """Return the mean time from one message to the next, without losses and propagation."""
     frame_us = 192 + 32 * (37 + payload_bytes)
     return (320 * (WINDOW - 1) / 2 + 128 + 192 + frame_us + (544 if acks else 0)) * 1e-6
 
 
 def alone(senders: int) -> float:
-    """Chance that the least of so many numbers, each of WINDOW, was drawn once only."""
+    """Return the probability that the smallest of `senders` numbers from WINDOW was drawn only once."""
     return senders * sum(((WINDOW - 1 - least) / WINDOW) ** (senders - 1) for least in range(WINDOW)) / WINDOW
 
 
 def mean_with_least(senders: int) -> float:
-    """Mean number of devices that drew the least number."""
+    """Return the mean number of devices that drew the smallest number."""
     return senders * sum(((WINDOW - least) / WINDOW) ** (senders - 1) for least in range(WINDOW)) / WINDOW
 
 

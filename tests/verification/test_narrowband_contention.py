@@ -1,9 +1,8 @@
 """Unslotted CSMA/CA of IEEE 802.15.4 under contention: against ns-3, and against a model of INET's rules.
 
-Up to 30 stations that always have a message, around a sink. ns-3 and the standard differ from INET, whose
-times are our defaults, in two of them: a long interframe space after each exchange, which INET leaves out,
-and the wait for an ACK. What is compared with ns-3 has its times; what is compared with the model has those
-of INET.
+Up to 30 saturated stations around a sink. ns-3 and the standard differ from INET, whose times are our
+defaults, in two of them: a long interframe space after each exchange, which INET omits, and the wait for an
+ACK. Runs compared with ns-3 have its times; runs compared with the model have those of INET.
 """
 
 from collections.abc import Callable
@@ -44,12 +43,12 @@ MODEL_S = 5.0
 
 THROUGHPUT, NO_ACCESS, NO_ACK, FRAMES = "throughput", "no access", "no ACK", "frames per message"
 Measured = dict[str, float]
-"""Throughput in kbps; per message that was sent or given up: access failures, missing ACKs and frames."""
+"""Throughput in kbps; per message that was sent or dropped: access failures, missing ACKs and frames."""
 
 
 @cache
 def ours(config: str, acks: bool, stations: int) -> tuple[Measured, ...]:
-    """For each seed."""
+    """Return our figures for each seed."""
     overrides = circle(stations, acks)
 
     def measure(seed: int) -> Measured:
@@ -103,7 +102,7 @@ def p_value(some: tuple[Measured, ...], other: tuple[Measured, ...], quantity: s
 
 
 def chance_decides(acks: bool, stations: int) -> list[str]:
-    """What is not the same in all runs."""
+    """Return the quantities that differ between runs."""
     if stations == 1:
         return [THROUGHPUT]
     return [THROUGHPUT, NO_ACCESS, NO_ACK, FRAMES] if acks else [THROUGHPUT, NO_ACCESS]
@@ -112,7 +111,7 @@ def chance_decides(acks: bool, stations: int) -> list[str]:
 def compare(
     pairs: dict[int, tuple[tuple[Measured, ...], tuple[Measured, ...]]], acks: bool
 ) -> tuple[str, bool]:
-    """The number of a finding, from two sets of runs for each number of stations; and whether it will do."""
+    """Return the number of a finding, from two sets of runs per number of stations, and its verdict."""
     off = {n: mean(a, THROUGHPUT) / mean(b, THROUGHPUT) - 1 for n, (a, b) in pairs.items()}
     worst = max(off, key=lambda n: abs(off[n]))
     chances = {

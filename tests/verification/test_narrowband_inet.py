@@ -1,12 +1,12 @@
 """IEEE 802.15.4 against INET's runs: reception over distance, and contention around a sink.
 
-INET never gives up a message that was not on the air yet, however often the channel is busy; the standard
-does, and so do we. A saturated station that starts over does what one does that begins with its next message,
-so all else is compared as it is. Access failures are compared with runs of INET that had the standard's rule.
+INET never drops a message that was not on the air yet, however often the channel is busy. The standard drops
+it, and so does gradysim. A saturated station that retries behaves like one that starts with its next message.
+So all else is compared directly. Access failures are compared with runs of INET with the standard's rule.
 
-In INET a frame that arrives in the very instant in which an assessment ends does not make the channel busy;
-here it does. That shows in rings of stations that answer each other, not around a sink: rings are compared
-with runs of INET in which the assessment ended last.
+In INET a frame that arrives at the instant in which an assessment ends does not make the channel busy; here
+it does. This matters in rings of stations that answer each other, not around a sink. Rings are compared with
+runs of INET in which the assessment ended last.
 """
 
 from collections.abc import Callable, Iterator
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.verify
 
 CASES = {"General": "noise", "Threshold": "SNIR threshold", "LessNoise": "sensitivity"}
-"""What decides."""
+"""Limit of reception in each case."""
 FRAMES = 20_000
 INTERVAL_S = 0.01
 
@@ -53,7 +53,7 @@ Counts = dict[str, int]
 
 @cache
 def received(case: str) -> tuple[int, ...]:
-    """Frames of FRAMES that arrive at each distance of INET's runs."""
+    """Return the frames out of FRAMES that arrive at each distance of INET's runs."""
     distances_m = [row["distance_m"] for row in rows("inet_narrowband_link", case=case)]
     end_s = 1 + FRAMES * INTERVAL_S
     overrides = [
@@ -91,7 +91,7 @@ def test_reception_over_distance_agrees_with_inet(report: Callable[[Finding], No
 
 @cache
 def ours(overlap: str, acks: bool, stations: int) -> tuple[Counts, ...]:
-    """For each seed, from the beginning on."""
+    """Return our counts for each seed, from the start on."""
 
     def count(seed: int) -> Counts:
         overrides = ["*.sink.protocol.count_from = 0s", *circle(stations, acks)]
@@ -115,12 +115,12 @@ def inet(overlap: str, acks: bool, stations: int) -> tuple[Row, ...]:
 
 
 def counts(runs: tuple[Row, ...], quantity: str) -> list[int]:
-    """Of those runs that have the quantity."""
+    """Return the counts of the runs that have the quantity."""
     return [int(row[quantity]) for row in runs if row[quantity]]
 
 
 def quantities(overlap: str, acks: bool) -> Iterator[tuple[int, str, list[int], list[int]]]:
-    """Stations, what is counted, ours and INET's: all that is there, and not the same number in all runs."""
+    """Yield stations, quantity, our counts and INET's, for quantities that vary between runs."""
     for n in STATIONS:
         for quantity in (RECEIVED, FRAMES_SENT, DUPLICATES, NO_ACK, NO_ACCESS):
             mine = [run[quantity] for run in ours(overlap, acks, n)]
@@ -155,7 +155,7 @@ def test_contention_agrees_with_inet(overlap: str, acks: bool, report: Callable[
 
 @cache
 def in_a_ring(stations: int) -> tuple[Counts, ...]:
-    """For each seed: frames, acknowledged messages and those given up without an ACK."""
+    """Return for each seed: frames, acknowledged messages, and messages dropped without an ACK."""
 
     def count(seed: int) -> Counts:
         to_the_next = [

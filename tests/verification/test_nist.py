@@ -1,4 +1,4 @@
-"""The closed form, at values that follow from it by hand."""
+"""The closed form, at values that can be computed by hand."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ from verification.nist import OFDM_RATES_MBPS, bit_error, received_power_w, succ
 from verification.reference_data import rows
 
 NS3_MODES = {"DsssRate1Mbps": (1.0, 22 / 2), "ErpOfdmRate6Mbps": (6.0, 1.0), "ErpOfdmRate24Mbps": (24.0, 1.0)}
-"""{ns-3's mode: (rate in Mbps, our SNIR over its: at 1 Mbps it takes bandwidth over bitrate, we take 2)}"""
+"""{ns-3's mode: (rate in Mbps, our SNIR over its: at 1 Mbps it is bandwidth over bitrate, ours is 2)}"""
 
 
 @pytest.mark.parametrize("rate_mbps", OFDM_RATES_MBPS)

@@ -18,14 +18,14 @@ from verification.finding import Finding
 from verification.reference_data import rows
 
 PATH = "e[2].leaf.v"
-"""The parameter that OMNeT++ gave the values to."""
+"""Parameter that has the values in OMNeT++."""
 
 SIX_DIGITS = 2e-5
-"""Relative: as many as OMNeT++ writes."""
+"""Relative tolerance: OMNeT++ writes that many digits."""
 
 
 def is_equal(ours: Value, theirs: str) -> bool:
-    """Whether OMNeT++ writes that value so."""
+    """Return whether OMNeT++ writes the value like this."""
     if not isinstance(ours, Quantity):
         return theirs == (f'"{ours}"' if isinstance(ours, str) else str(ours).lower())
     written = parse_value(theirs)
@@ -70,7 +70,7 @@ def test_patterns_match_what_they_match_in_omnetpp(report: Callable[[Finding], N
 
 
 def runs_of(file: Path, config: str) -> tuple[list[set[str]], set[str]]:
-    """The iteration variables of each run, and the lines of the last one."""
+    """Return the iteration variables of each run, and the lines of the last one."""
     sections = search_order(read_ini(file), config)
     entries, variables = name_iterations(entries_in_order((), sections))
     options = {entry.key: entry for entry in reversed(entries) if is_option(entry)}
@@ -86,7 +86,7 @@ def runs_of(file: Path, config: str) -> tuple[list[set[str]], set[str]]:
 
 
 def variables_in(text: str) -> set[str]:
-    """The parts of `$x=1, $repetition=0`."""
+    """Return the parts of `$x=1, $repetition=0`."""
     return set(re.split(r", (?=\$)", text))
 
 

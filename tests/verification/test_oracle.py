@@ -1,8 +1,8 @@
 """Every frame at every radio, against a second implementation of the model, in plain Python.
 
-Nothing of it comes from the engine's code. What was sent is taken from the senders' captures; which of the
-other radios lock on to it, and decode it, is worked out by `verification.oracle`, and compared with their
-captures and with the ledger of frame fates.
+It shares no code with the engine. Sent frames are taken from the senders' captures. `verification.oracle`
+computes which other radios lock on to them and decode them. Its results are compared with the receivers'
+captures and with the outcomes of frames.
 """
 
 from collections.abc import Callable, Iterator
@@ -68,7 +68,7 @@ def test_the_oracle_predicts_the_engine(
     )
 
 
-# The oracle is worth something only if it disagrees with an engine that is wrong: here, that of another case.
+# A useful oracle disagrees with a wrong engine: here, with the engine's run of another case.
 
 Change = Callable[[Case], Case]
 

@@ -1,8 +1,8 @@
-"""What arrives of a frame, against INET: path loss with a ground, antennas, obstacles, fading.
+"""Received power, against INET: path loss with a ground, antennas, obstacles, fading.
 
-INET's figures are signal to noise ratios of frames, as gains; nothing about the first three is random. Known
-differences are held, too (docs/how-to/choose-a-propagation-model.md): a cosine antenna falls twice as fast
-here, in decibels, and INET multiplies powers with what Rayleigh's model has for amplitudes.
+INET's figures are signal to noise ratios of frames, as gains; the first three are not random. Known
+differences are tested, too (docs/how-to/choose-a-propagation-model.md): here a cosine antenna falls twice as
+fast, in decibels, and INET multiplies powers by the Rayleigh model's amplitudes.
 """
 
 from collections.abc import Callable
@@ -17,7 +17,7 @@ CARRIER_HZ = 2.412e9
 DRAWS = 20_000
 SENDER = (0.0, 0.0, 10.0)
 RECEIVER = (100.0, 0.0, 10.0)
-"""Of frames that fade."""
+"""Receiver of fading frames."""
 Place = tuple[float, float, float]
 Fields = dict[str, float | str]
 
@@ -47,7 +47,7 @@ ANTENNAS: dict[str, Fields] = {
 TURNED = {"ParabolicTurned": (radians(40), radians(15))}
 """Heading and elevation of the sender, if not 0."""
 HALF_DB = 10 * log10(2)
-"""INET takes 3 dB for it."""
+"""INET uses 3 dB for it."""
 COSINE: Fields = {"typename": "CosineAntenna", "max_gain": 10.0, "beam_width_rad": radians(60)}
 BOXES = (((20.0, -30.0), (35.0, 10.0), 20.0), ((-60.0, -10.0), (-40.0, 10.0), 10.5))
 """Two corners and the height of each; they stand on the ground."""
@@ -60,7 +60,7 @@ FADING: dict[str, Fields] = {
 
 
 def inet(case: str) -> list[tuple[Place, float]]:
-    """Places of receivers, and the gain from the sender to each."""
+    """Return the positions of receivers, and the gain from the sender to each."""
     return [
         ((float(row["x_m"]), float(row["y_m"]), float(row["z_m"])), float(row["gain"]))
         for row in rows("inet_propagation", case=case)
@@ -68,7 +68,7 @@ def inet(case: str) -> list[tuple[Place, float]]:
 
 
 def path_gain(**fields: object) -> Callable[[Place], float]:
-    """From the sender, over a medium with these fields of its configuration."""
+    """Return the gain from the sender, over a medium with these fields of its configuration."""
     from gradysim._netsim import MediumConfig, Propagation
 
     config = MediumConfig()
@@ -79,7 +79,7 @@ def path_gain(**fields: object) -> Callable[[Place], float]:
 
 
 def pattern(fields: Fields, heading: float = 0.0, elevation: float = 0.0) -> Callable[[Place], float]:
-    """Of the sender's antenna, towards a place; the sender is turned by these angles."""
+    """Return the gain of the sender's antenna towards a place; the sender is turned by these angles."""
     from gradysim._netsim import AntennaConfig, antenna_gain
 
     config = AntennaConfig()
@@ -184,7 +184,7 @@ def test_boxes_cast_inets_shadow(report: Callable[[Finding], None]) -> None:
 
 @cache
 def fading_gains(case: str) -> list[float]:
-    """Factors on free space, one for each frame."""
+    """Return factors relative to free space, one for each frame."""
     from gradysim._netsim import MediumConfig, Propagation
 
     config = MediumConfig()

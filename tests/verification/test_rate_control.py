@@ -1,4 +1,4 @@
-"""Throughput of a station with a rate control over signal to noise, against ns-3 and the best fixed rate."""
+"""Throughput of a station with rate control over SNR, against ns-3 and the best fixed rate."""
 
 from collections.abc import Callable
 from functools import cache
@@ -22,20 +22,20 @@ CONFIGS = {"arf": "Arf", "aarf": "Aarf", "minstrel": "Minstrel"}
 
 
 def distance_m(snr_db: float) -> float:
-    """Where free space leaves that signal to noise ratio. H. T. Friis, 1946: loss = (4 pi d f / c)^2."""
+    """Return the distance with that SNR in free space. H. T. Friis, 1946: loss = (4 pi d f / c)^2."""
     return float(10 ** ((LOSS_AT_0_DB - snr_db) / 20) * SPEED_OF_LIGHT_MPS / (4 * pi * CARRIER_HZ))
 
 
 @cache
 def throughput_mbps(config: str, snr_db: float) -> float:
-    """Payload that arrives from 1 s to 6 s."""
+    """Return the received payload from 1 s to 6 s."""
     place = f"*.station.mobility.initialX = {distance_m(snr_db):.6f}m"
     result = run_reference("rate_control", config, overrides=[place])
     return sum(tracked(result, "received_bytes")) * 8 / MEASURED_S / 1e6
 
 
 def ns3_mbps(control: str) -> dict[float, float]:
-    """Mean of ns-3's runs by signal to noise ratio in dB; the best of all fixed rates for "fixed"."""
+    """Return the mean of ns-3's runs by SNR in dB; the best of all fixed rates for "fixed"."""
     runs: dict[float, list[float]] = {}
     for row in rows("ns3_rate_control", control=control):
         runs.setdefault(float(row["snr_db"]), []).append(float(row["throughput_mbps"]))

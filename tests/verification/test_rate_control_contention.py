@@ -1,4 +1,4 @@
-"""What Minstrel leaves of a fast rate among stations that collide, against ns-3's."""
+"""Throughput of Minstrel with colliding stations, against ns-3's."""
 
 from collections.abc import Callable
 from functools import cache
@@ -25,7 +25,7 @@ CONFIGS = {"fixed": "A54", "minstrel": "A54Minstrel"}
 
 @cache
 def throughput_mbps(control: str, stations: int) -> float:
-    """Payload that arrives from 1 s to 5 s."""
+    """Return the received payload from 1 s to 5 s."""
     number = f"*.numStations = {stations}"
     received = [
         sum(
@@ -40,7 +40,7 @@ def throughput_mbps(control: str, stations: int) -> float:
 
 @cache
 def ns3_mbps(control: str) -> dict[int, float]:
-    """Mean of ns-3's runs by number of stations."""
+    """Return the mean of ns-3's runs by number of stations."""
     runs: dict[int, list[float]] = {}
     for row in rows("ns3_rate_control_contention", control=control):
         runs.setdefault(int(row["stations"]), []).append(float(row["throughput_mbps"]))

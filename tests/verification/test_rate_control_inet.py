@@ -1,4 +1,4 @@
-"""Frames at each rate with ARF and AARF over distance, against INET, where both follow the same rules."""
+"""Frames at each rate with ARF and AARF over distance, against INET, if both follow the same rules."""
 
 from collections.abc import Callable, Iterator
 from functools import cache
@@ -25,12 +25,12 @@ RATES_MBPS = (6, 9, 12, 18, 24, 36, 48, 54)
 COLUMNS = ("received", *(f"frames_{mbps}" for mbps in RATES_MBPS))
 PAYLOAD_BITS, BY_DEFAULT_S = 8000, 10.0
 LEAST_SHARE = 0.01
-"""Rates with a lower share of the frames, on the way up from 6 Mbps, are not compared."""
+"""Rates with a lower ratio of frames, during the increase from 6 Mbps, are not compared."""
 
 
 @cache
 def counts(config: str, distance_m: int, seed: int) -> dict[str, int]:
-    """Messages that arrive, and frames at each rate."""
+    """Return received messages, and frames at each rate."""
     place = f"*.stations[*].mobility.initialX = {distance_m}m"
     result = run_reference("rate_control_inet", config, seed=seed, overrides=[place])
     (received,) = tracked(result, "received")
@@ -51,7 +51,7 @@ def distances_m(config: str) -> list[int]:
 
 
 def share(config: str, distance_m: int, column: str) -> float:
-    """Of INET's frames those at the rate of the column."""
+    """Return the ratio of INET's frames at the rate of the column."""
     frames = {rate: fmean(inet(config, distance_m, rate)) for rate in COLUMNS[1:]}
     return frames[column] / sum(frames.values())
 
@@ -68,7 +68,7 @@ def compared() -> Iterator[tuple[str, int, str]]:
 
 
 def off(config: str, distance_m: int) -> float:
-    """By how much more of our messages arrive than of INET's, relative to these."""
+    """Return the difference of our received messages from INET's, relative to INET's."""
     theirs = inet(config, distance_m, "received")
     return fmean(ours(config, distance_m, "received")) / fmean(theirs) - 1
 

@@ -1,7 +1,8 @@
 """Reception over distance: against the closed form at every rate, and against INET's runs.
 
-50,000 frames per point: a share of one half has a standard error of 0.0022, so a correct engine leaves 0.01
-with a chance of 8e-6 at the worst point, below 0.1 % over all points. INET's shares come from 1998 frames.
+50,000 frames per point: a ratio of one half has a standard error of 0.0022. A correct engine exceeds 0.01
+with a probability of 8e-6 at the worst point, below 0.1 % over all points. INET's ratios come from 1998
+frames.
 """
 
 from collections.abc import Callable
@@ -46,7 +47,7 @@ class Point:
 
 
 def measure(config: str, distances_m: list[float], seed: int, overrides: list[str]) -> list[int]:
-    """Frames received at each distance."""
+    """Return the frames received at each distance."""
     end_s = 1 + FRAMES * INTERVAL_S
     result = run_reference(
         "link",
@@ -83,7 +84,7 @@ def closed_form(
 
 
 def distance_of(share: float, rate_mbps: float) -> float:
-    """Where that share is received, in meters to the millimetre."""
+    """Return the distance with that ratio of receptions, in meters to the millimeter."""
     near, far = 1.0, 1e6
     for _ in range(100):
         middle = sqrt(near * far)
@@ -96,7 +97,7 @@ def distance_of(share: float, rate_mbps: float) -> float:
 
 @cache
 def curve(rate_mbps: float) -> list[Point]:
-    """Around the distance at which half is received, with 20 mW, sensitivity and threshold out of the way."""
+    """Return points around one half of receptions, with 20 mW, without sensitivity and threshold."""
     distances_m = [distance_of(share, rate_mbps) for share in SHARES]
     received = measure(
         "Far",
@@ -115,7 +116,7 @@ def curve(rate_mbps: float) -> list[Point]:
 
 @cache
 def case_curve(case: str) -> list[Point]:
-    """The configuration of that name, at the distances of INET's runs."""
+    """Return the points of the configuration of that name, at the distances of INET's runs."""
     runs = rows("inet_link", case=case)
     distances_m = [float(row["distance_m"]) for row in runs]
     received = measure(case, distances_m, seed=1000 + CASES.index(case), overrides=[])

@@ -21,7 +21,7 @@ COMPLETED = {
     *("flyby", "hidden_inet", "link", "narrowband", "narrowband_contention", "saturation"),
     "unicast_failures",
 }
-"""Files whose General runs only with what the others add."""
+"""Files whose General runs only with the other configurations."""
 FILES = {
     *("beacons", "capture", "flood", "flyby", "hidden", "hidden_inet", "jittered", "link", "narrowband"),
     *("narrowband_contention", "narrowband_link", "rate_control", "rate_control_inet", "saturation", "sir"),
@@ -31,11 +31,11 @@ MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.protot
 
 
 def runnable() -> list[tuple[str, str]]:
-    """All configurations but those to extend, and but General where the others complete it."""
+    """Return all configurations that run by themselves."""
     return [
         (file.stem, config)
         for file in sorted(FOLDER.glob("*.ini"))
-        if "sim-time-limit" in file.read_text()  # the others are only there to be included
+        if "sim-time-limit" in file.read_text()  # other files are only included
         for config in dict.fromkeys(("General", *config_names(read_ini(file))))
         if config not in BASES and (config != "General" or file.stem not in COMPLETED)
     ]
@@ -43,7 +43,7 @@ def runnable() -> list[tuple[str, str]]:
 
 @cache
 def short_run(name: str, config: str) -> Scenario:
-    # Saturated stations are busy from the start on, and much work.
+    # Saturated stations are busy from the start, and need much computation.
     limit_s = 0.1 if name == "saturation" else 1.5
     file = FOLDER / f"{name}.ini"
     return load_scenarios(file, config, runs=[0], overrides=[f"sim-time-limit = {limit_s}s"])[0]

@@ -13,7 +13,7 @@ def test_fisher_of_equal_shares_is_one() -> None:
 
 
 def test_welch_in_the_table_of_student() -> None:
-    """Two samples of 6, equal spread: 10 degrees of freedom, for which the table gives t = 3.169 at 1 %."""
+    """Two samples of 6, equal variance: 10 degrees of freedom, for which the table gives t = 3.169 at 1 %."""
     sample = [-1.0, 1.0, -1.0, 1.0, -1.0, 1.0]
     standard_error = (2 * (6 / 5) / 6) ** 0.5
     assert welch_p(sample, [x + 3.169 * standard_error for x in sample]) == pytest.approx(0.01, rel=1e-3)

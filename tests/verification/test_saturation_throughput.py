@@ -1,4 +1,4 @@
-"""Saturation throughput: against INET, against ns-3 with the same timing, and beside Bianchi's model."""
+"""Saturation throughput: against INET, against ns-3 with the same timing, and Bianchi's model."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -25,11 +25,11 @@ SEEDS = range(5)
 TOLERANCE = 0.03
 
 LARGE = (15, 20, 30)
-"""Numbers of stations of which many frames collide."""
+"""Numbers of stations with many collisions."""
 
 # Of a data frame of 1064 B and an ACK at 24 Mbps (6 Mbps in A6, 11 Mbps in b). A collision ends with EIFS for
-# those who heard it (INET), or with DIFS for everybody: nearly so in ns-3, where a preamble that was not
-# detected starts no EIFS.
+# stations that receive it (INET), or with DIFS for all: nearly so in ns-3, where an undetected preamble does
+# not start EIFS.
 _OFDM_EIFS_MINUS_DIFS_S = 60e-6  # SIFS 16 µs (g: 10 µs and 6 µs of signal extension), ACK at 6 Mbps 44 µs
 TIMINGS = {
     "G54": Timing(9e-6, (180 + 16 + 28 + 34) * 1e-6, (180 + 34) * 1e-6, 15, 6),
@@ -42,7 +42,7 @@ EIFS_MINUS_DIFS_S = dict.fromkeys(TIMINGS, _OFDM_EIFS_MINUS_DIFS_S) | {"B11": 31
 
 
 def with_eifs(config: str) -> Timing:
-    """The times of a configuration, those after a collision by INET's rules."""
+    """Return the times of a configuration; after a collision by INET's rules."""
     timing = TIMINGS[config]
     return replace(timing, collision_s=timing.collision_s + EIFS_MINUS_DIFS_S[config])
 
@@ -53,7 +53,7 @@ def config_of(row: dict[str, str]) -> str:
 
 @cache
 def throughput_mbps(config: str, stations: int, seed: int) -> float:
-    """Payload that arrives from 1 s to 5 s. The stations stand on a circle of 10 m around the sink."""
+    """Return the received payload from 1 s to 5 s. The stations are on a circle of 10 m around the sink."""
     result = run_reference("saturation", f"{config}Circle{stations}", seed=seed)
     return sum(tracked(result, "received_bytes")) * 8 / MEASURED_S / 1e6
 
@@ -63,7 +63,7 @@ def mean_mbps(config: str, stations: int) -> float:
 
 
 def inet_mbps() -> dict[tuple[str, int], float]:
-    """INET's mean over its seeds, each with the weight of its time."""
+    """Return INET's mean over its seeds, weighted by their times."""
     runs: dict[tuple[str, int], list[tuple[float, float]]] = {}
     for row in rows("inet_saturation"):
         key = config_of(row), int(row["stations"])
@@ -75,7 +75,10 @@ def inet_mbps() -> dict[tuple[str, int], float]:
 
 
 def ns3_mbps(rate_mbps: int) -> dict[int, float]:
-    """ns-3 in 802.11a, by number of stations; its times at 54 Mbps are those of g(erp)."""
+    """Return ns-3's throughput in 802.11a, by number of stations.
+
+    Its times at 54 Mbps are those of g(erp).
+    """
     return {
         int(row["n"]): float(row["ns3_mbps_mean"])
         for row in rows("ns3_saturation", std="a", rate_mbps=rate_mbps)

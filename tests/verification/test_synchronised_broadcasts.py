@@ -1,4 +1,4 @@
-"""Broadcasts at the same instant: nobody receives anything, as in both references."""
+"""Broadcasts at the same instant: no receptions, as in both references."""
 
 from collections.abc import Callable
 from functools import cache
@@ -19,7 +19,7 @@ BROADCASTS = 20
 
 @cache
 def received_at_once(nodes: int) -> tuple[int, int]:
-    """Frames sent and received when all nodes send 20 times at the same instant."""
+    """Return the frames sent and received when all nodes send 20 times at the same instant."""
     result = run_reference(
         "synchronised",
         overrides=[
@@ -56,7 +56,7 @@ def draw(path: Path) -> None:
     sizes = (2, 3, 5, 10, 20)
 
     def ratio(offset_ms: int, nodes: int) -> float:
-        """Share of the copies received, with seeds 0 to 4."""
+        """Return the ratio of receptions, with seeds 0 to 4."""
         shares = []
         for seed in range(5 if offset_ms else 1):
             result = run_reference(

@@ -16,7 +16,7 @@ WAVELENGTH_M = 299_792_458 / CARRIER_HZ
 HEIGHTS_M = ((1.5, 1.5), (2.0, 30.0), (50.0, 120.0))
 GROUNDS = ((1.02, "horizontal"), (15.0, "horizontal"), (15.0, "vertical"))
 DISTANCES_M = tuple(10 ** (step / 100) for step in range(401))
-"""On the ground: 1 m to 10 km."""
+"""Distances on the ground: 1 m to 10 km."""
 
 
 def free_space_amplitude(length_m: float) -> float:
@@ -24,7 +24,7 @@ def free_space_amplitude(length_m: float) -> float:
 
 
 def interference(ground_m: float, low_m: float, high_m: float, epsilon_r: float, polarization: str) -> float:
-    """The squared sum of two rays of which each has its own phase; the lengths count for the phases only."""
+    """Return the squared sum of two rays with their phases; path lengths affect the phases only."""
     direct_m, reflected_m = hypot(ground_m, high_m - low_m), hypot(ground_m, high_m + low_m)
     sine, cosine = (high_m + low_m) / reflected_m, ground_m / reflected_m
     bent = sqrt(epsilon_r - cosine**2).real
@@ -71,7 +71,7 @@ def test_two_ray_interference(
         gain = engine("TwoRayInterference", epsilon_r, polarization)
         for low_m, high_m in HEIGHTS_M:
             for ground_m in DISTANCES_M:
-                # Beside the strength of one ray: where both cancel, next to nothing is left to compare.
+                # Relative to the strength of one ray: where both cancel, almost nothing is left to compare.
                 scale = free_space_amplitude(hypot(ground_m, high_m - low_m)) ** 2
                 expected = interference(ground_m, low_m, high_m, epsilon_r, polarization)
                 worst = max(worst, abs(gain(ground_m, low_m, high_m) - expected) / scale)

@@ -10,7 +10,7 @@ from verification.reference_run import run_reference, tracked
 from verification.sampling import least_p, weakest, welch_p
 
 EXACT = ("OutOfReach", "OutOfReachRtsCts", "TooFast", "Bursts")
-"""Configurations in which nothing that is counted is left to chance."""
+"""Configurations whose counts do not depend on chance."""
 NOISY = ("NoisyLink", "NoisyLinkRtsCts")
 SATURATED = ("OutOfReachSaturated", "OutOfReachSaturatedRtsCts")
 BY_DEFAULT = "**.inetStationRetryCounters = false"
@@ -20,7 +20,7 @@ COLUMNS = ("messages", "received", "frames", "rts", "given_up", "queue_overflow"
 
 @cache
 def counts(config: str, seed: int, *overrides: str) -> dict[str, int]:
-    """What INET's table has for the configuration."""
+    """Return the quantities of INET's table for the configuration."""
     result = run_reference("unicast_failures", config, seed=seed, overrides=overrides)
     messages, frames = result.fates["messages"]["unicast"], result.fates["frames"]
     sent = {kind: sum(frames[kind].values()) for kind in ("unicast", "rts", "ack", "cts")}
@@ -38,7 +38,7 @@ def counts(config: str, seed: int, *overrides: str) -> dict[str, int]:
 
 
 def inet(config: str) -> list[dict[str, int]]:
-    """INET's counts, for each of its seeds."""
+    """Return INET's counts, for each of its seeds."""
     table = rows("inet_unicast_failures", case=config)
     return [{column: int(row[column]) for column in COLUMNS} for row in table]
 

@@ -1,4 +1,4 @@
-"""The frames in a capture file of the engine. Read without scapy, which takes a hundred times as long."""
+"""Frames in a capture file of the engine. Read without scapy, which takes a hundred times as long."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -25,12 +25,12 @@ class CapturedFrame:
 
     @property
     def mpdu_bytes(self) -> int:
-        """The length with the FCS."""
+        """Length with the FCS."""
         return len(self.octets) + _FCS
 
     @property
     def kind(self) -> str:
-        """As the engine's ledger calls it."""
+        """Kind of frame, with its name in results."""
         first = self.octets[0]
         if first >> 2 & 3 == 1:
             return {11: "rts", 12: "cts", 13: "ack"}[first >> 4]
@@ -38,7 +38,7 @@ class CapturedFrame:
 
 
 def read_capture(path: Path) -> list[CapturedFrame]:
-    """All records, in the order of the file."""
+    """Return all records, in the order of the file."""
     data = path.read_bytes()
     assert unpack_from("<I", data)[0] == _NANOSECONDS
     frames = []

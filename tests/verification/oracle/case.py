@@ -1,6 +1,6 @@
-"""One scenario for the oracle of reception: plain data, which the engine and the oracle are both given.
+"""One scenario for the oracle of reception: plain data, for the engine and the oracle.
 
-Powers are in watts, ratios linear, times in whole nanoseconds.
+Powers are in watts, ratios linear, times in integers of nanoseconds.
 """
 
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ class Send:
 
 @dataclass(frozen=True)
 class Course:
-    """An order to a vehicle: from that time on straight to the target."""
+    """A command to a vehicle: fly straight to the target from that time on."""
 
     time_ns: int
     target: Point
@@ -36,7 +36,7 @@ class Course:
 
 @dataclass(frozen=True)
 class PreambleDetection:
-    """How a radio notices that a frame begins."""
+    """How a radio detects the start of a frame."""
 
     threshold: float
     minimum_power_w: float
@@ -45,7 +45,7 @@ class PreambleDetection:
 
 @dataclass(frozen=True)
 class FrameCapture:
-    """When a radio gives a frame up for a stronger one."""
+    """When a radio drops a frame for a stronger one."""
 
     margin: float
     window_us: int
@@ -81,11 +81,11 @@ class Station:
 
 @dataclass(frozen=True)
 class Air:
-    """What is between the nodes.
+    """Medium between the nodes.
 
     `free_space_alpha` is the exponent of free space; None stands for the breakpoint model, whose numbers are
-    (distance m, loss dB at 1 m, loss dB at the breakpoint, exponent before, exponent behind). The medium says
-    which of them it is.
+    (distance m, loss dB at 1 m, loss dB at the breakpoint, exponent before, exponent behind). The medium
+    determines the model.
     """
 
     medium: str
@@ -93,12 +93,12 @@ class Air:
     breakpoint: tuple[float, float, float, float, float]
     noise_w: float
     temperature_k: float | None
-    """None: the noise is `noise_w` everywhere; else it is thermal."""
+    """None: the noise is `noise_w` everywhere; otherwise it is thermal."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A network and what happens in it."""
+    """A network and its events."""
 
     seed: int
     rts_threshold_bytes: int

@@ -1,4 +1,4 @@
-"""The engine and the oracle side by side, frame by frame."""
+"""Comparison of the engine and the oracle, frame by frame."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,12 +21,12 @@ class Comparison:
     """One case.
 
     Attributes:
-        differences: Empty if the two agree; else one line for each.
-        fates: Arrivals that were compared: those strong enough to be received.
-        receptions: Frames compared that somebody was locked on to until the end.
-        uncertain: Those about which the random number decided.
+        differences: One line for each difference; empty if the two agree.
+        fates: Compared arrivals: those strong enough to be received.
+        receptions: Compared frames to which a radio was locked until the end.
+        uncertain: Receptions decided by the random number.
         radios: Radios compared.
-        left_out: Radios left out, since captures are not exact enough to tell the order of events there.
+        left_out: Radios without a comparison, since captures do not determine the order of events there.
     """
 
     differences: list[str]
@@ -38,7 +38,7 @@ class Comparison:
 
 
 def compare(case: Case, run: EngineRun) -> Comparison:
-    """Let the oracle predict the case and compare."""
+    """Compare the prediction of the oracle with the run."""
     prediction = predict(case, run)
     chosen = [index for index, certain in enumerate(prediction.certain) if certain]
     differences = [line for index in chosen for line in _differences_at(index, run, prediction)]

@@ -1,4 +1,4 @@
-"""A case in the engine: what its radios sent and received, from their capture files and the ledger."""
+"""A case in the engine: sent and received frames, from capture files and results."""
 
 from collections import Counter
 from dataclasses import dataclass
@@ -14,25 +14,25 @@ if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig
 
 END_S = 1000.0
-"""Long after the last retry: nothing is in the air then."""
+"""Long after the last retry: there is nothing in the air."""
 
 
 @dataclass(frozen=True)
 class EngineRun:
-    """What came out, by station."""
+    """Results by station."""
 
     sent: list[list[CapturedFrame]]
     received: list[list[CapturedFrame]]
     fates: list[Counter[tuple[str, str]]]
-    """Of copies that reach the sensitivity, by (kind, fate)."""
+    """Receptions above the sensitivity, by (kind, outcome)."""
     below_sensitivity: int
-    """Copies of all kinds at all stations."""
+    """Receptions of all kinds at all stations."""
     instants_ps: list[int]
-    """At which anything happened, ascending. Captures are cut to nanoseconds: these tell the rest."""
+    """Times of all events, ascending. Captures are truncated to nanoseconds; these give the exact times."""
 
 
 def run_engine(case: Case, folder: Path) -> EngineRun:
-    """Run it to its end; the captures go to the folder."""
+    """Run it to its end; write the captures to the directory."""
     from gradysim._netsim import Network
 
     network = Network(_medium_config(case.air), case.seed)
@@ -58,7 +58,7 @@ def run_engine(case: Case, folder: Path) -> EngineRun:
 
 
 class _Scripted:
-    """A protocol that sends and flies at given times."""
+    """Protocol that sends and flies at given times."""
 
     def __init__(self, node: "Node", station: Station) -> None:
         self._node = node
@@ -107,7 +107,7 @@ def _medium_config(air: Air) -> "MediumConfig":
     from gradysim._netsim import MediumConfig
 
     config = MediumConfig(air.medium)
-    # Each medium has its own kind of path loss, and defaults, which are not set here.
+    # Each medium has its own path loss and defaults, which are not set here.
     if air.free_space_alpha is not None:
         config.alpha = air.free_space_alpha
     elif air.breakpoint != BREAKPOINT:

@@ -1,8 +1,8 @@
-"""Cases by seed in which thresholds are met exactly and events fall on one instant.
+"""Cases by seed in which thresholds are met exactly and events share an instant.
 
-All powers and ratios are powers of two, and nothing gets lost on the way (all are at one place), or all of it
-the same (equal distances), so that no rounding blurs what "at least" and "more than" mean. Frames are equally
-long and begin so that ends meet starts.
+All powers and ratios are powers of two. All nodes are at one place, without losses, or at equal distances,
+with equal losses. So rounding does not affect "at least" and "more than". Frames are equally long, and start
+so that ends meet starts.
 """
 
 from dataclasses import replace
@@ -35,13 +35,13 @@ BREAKPOINT_M = BREAKPOINT[0]
 
 
 def exact_case(seed: int) -> Case:
-    """The case of that seed: one station listens, the others send, one of them when it senses no energy."""
+    """Return the case of that seed: one station listens, the others send, one of them after sensing."""
     draw = Random(seed)
     op_mode = draw.choice(list(RATES_MBPS))
     rate_mbps = draw.choice(RATES_MBPS[op_mode])
     distance_m = draw.choice([0.0, 0.0, BREAKPOINT_M, 37.0])
     medium = NARROWBAND if distance_m == BREAKPOINT_M else IEEE80211
-    # Equal distances: what is left of all signals is the same, but no power of two.
+    # Equal distances: the gain of all signals is the same, but not a power of two.
     receiver = _receiver(draw)
     noise_w = 2.0 ** -draw.randint(1, 6)
     if distance_m > 0:
@@ -58,7 +58,7 @@ def exact_case(seed: int) -> Case:
     frame_us = frame_format(op_mode, rate_mbps, PAYLOAD_BYTES + HEADERS_BYTES).duration_us
     offsets_us = [0, *draw.choices([4, 16, 20, 192, frame_us, frame_us - 4], k=2)]
     senders = [_sender(draw, listener, place, offsets_us) for place in _cross(distance_m)]
-    # It may have to wait; before the others, since of equal times its grant is the older one.
+    # It may have to wait. It comes before the others, since its grant is older at equal times.
     energy_w = noise_w + sum(draw.sample([1.0, 0.5, 0.25, 0.125], k=draw.randint(1, 2)))
     watcher = replace(senders.pop(), receiver=Receiver(DEAF_W, energy_w, 1.0))
     return Case(seed, 2346, air, (listener, watcher, *senders))
@@ -91,7 +91,7 @@ def _cross(distance_m: float) -> list[Point]:
 
 
 def _sender(draw: Random, like: Station, place: Point, offsets_us: list[int]) -> Station:
-    """Deaf, and silent until its last message is out: it always sends at once."""
+    """Deaf, and silent until its last message is sent: it always sends at once."""
     sends = tuple(
         Send(burst * BURST_NS + sum(draw.choices(offsets_us, k=2)) * 1000, PAYLOAD_BYTES, None)
         for burst in range(1, 9)

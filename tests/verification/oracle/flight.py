@@ -1,4 +1,4 @@
-"""Where a station is: straight lines at constant speed, and a dead stop at each target."""
+"""Position of a station: straight lines at constant speed, and a full stop at each target."""
 
 from dataclasses import dataclass
 from math import dist
@@ -26,7 +26,7 @@ class _Leg:
 
 
 class Flight:
-    """The course of one station over the whole run."""
+    """Path of one station over the whole run."""
 
     def __init__(self, station: Station) -> None:
         self._legs = [_Leg(0, station.position, station.position, 0.0)]
@@ -36,5 +36,5 @@ class Flight:
             self._legs.append(_Leg(start_ps, here, course.target, course.speed_mps))
 
     def position_at(self, time_ps: int) -> Point:
-        """Where it is at that time, in meters."""
+        """Return its position at that time, in meters."""
         return next(leg for leg in reversed(self._legs) if leg.start_ps <= time_ps).position_at(time_ps)

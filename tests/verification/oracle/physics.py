@@ -1,4 +1,4 @@
-"""The air of the oracle: path loss, delay, noise, and times on the air.
+"""Physics of the oracle: path loss, delay, noise, and airtime.
 
 Sources: H. T. Friis, "A note on a simple transmission formula", 1946 (free space). IEEE 802.15.4-2006, annex
 E (breakpoint). H. Nyquist, "Thermal agitation of electric charge in conductors", 1928. IEEE 802.11-2020,
@@ -15,7 +15,7 @@ BOLTZMANN_J_PER_K = 1.380649e-23
 
 
 def gain(air: Air, distance_m: float, carrier_hz: float) -> float:
-    """The share of a power that is left after a distance, at most 1."""
+    """Return the ratio of received power after a distance, at most 1."""
     if distance_m == 0:
         return 1.0
     if air.free_space_alpha is not None:
@@ -30,12 +30,12 @@ def gain(air: Air, distance_m: float, carrier_hz: float) -> float:
 
 
 def delay_ps(distance_m: float) -> int:
-    """How long light takes, to the nearest picosecond."""
+    """Return the propagation delay, to the nearest picosecond."""
     return floor(distance_m / SPEED_OF_LIGHT_MPS * 1e12 + 0.5)
 
 
 def noise_w(air: Air, station: Station) -> float:
-    """What a station's radio gets when nobody sends."""
+    """Return the power at a station's radio without transmissions."""
     if air.temperature_k is None:
         return air.noise_w
     return BOLTZMANN_J_PER_K * air.temperature_k * station.bandwidth_hz * station.receiver.noise_figure
@@ -43,7 +43,7 @@ def noise_w(air: Air, station: Station) -> float:
 
 @dataclass(frozen=True)
 class FrameFormat:
-    """The parts of a frame on the air: bits and times."""
+    """Parts of a frame on the air: bits and times."""
 
     rate_mbps: float
     header_rate_mbps: float
@@ -53,19 +53,19 @@ class FrameFormat:
     header_us: int
     data_us: int
     silence_us: int
-    """At the end, in the 2.4 GHz band."""
+    """Time at the end, in the 2.4 GHz band."""
 
     @property
     def duration_us(self) -> int:
-        """All of it."""
+        """Total duration."""
         return self.preamble_us + self.header_us + self.data_us + self.silence_us
 
     def log_header_success(self, snir: float) -> float:
-        """Logarithm of the chance that the PHY header survives that SNIR."""
+        """Return the logarithm of the probability that the PHY header survives that SNIR."""
         return _log_success(self.header_rate_mbps, self.header_bits, snir)
 
     def log_data_success(self, snir: float) -> float:
-        """Logarithm of the chance that what follows the PHY header survives that SNIR."""
+        """Return the logarithm of the probability that the part after the PHY header survives that SNIR."""
         return _log_success(self.rate_mbps, self.data_bits, snir)
 
 
@@ -75,7 +75,7 @@ def _log_success(rate_mbps: float, bits: int, snir: float) -> float:
 
 
 def frame_format(op_mode: str, rate_mbps: float, mpdu_bytes: int) -> FrameFormat:
-    """The frame of an MPDU of that length, FCS included."""
+    """Return the format of a frame with an MPDU of that length, FCS included."""
     bits = 8 * mpdu_bytes
     if rate_mbps in DSSS_RATES_MBPS:
         return FrameFormat(rate_mbps, 1.0, 48, bits, 144, 48, ceil(bits / rate_mbps), 0)
@@ -86,7 +86,7 @@ def frame_format(op_mode: str, rate_mbps: float, mpdu_bytes: int) -> FrameFormat
 
 
 def knows_format(op_mode: str, sender_op_mode: str, rate_mbps: float) -> bool:
-    """Whether a station of that operation mode has the mode in which the sender sends at that rate.
+    """Return whether a station of that operation mode has the sender's mode at that rate.
 
     OFDM of 5 GHz and of 2.4 GHz are different modes.
     """

@@ -1,4 +1,4 @@
-"""What the model text says that every radio receives, given what was sent."""
+"""Receptions of every radio that follow from the model text and the sent frames."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,23 +13,23 @@ from verification.oracle.radio import Arrival, Heard, Radio, Transmission
 from verification.oracle.transmissions import arrival_at, share_in_band, transmissions
 
 RECEPTION = 2
-"""The number of the random streams from which receptions are drawn."""
+"""Number of the random streams for receptions."""
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """By station."""
+    """Results by station."""
 
     heard: list[Heard]
     certain: list[bool]
-    """Whether all that counts at that station is known: the order of events, that is."""
+    """Whether the order of all relevant events at that station is known."""
     noise_w: list[float]
     below_sensitivity: int
-    """Copies at all stations."""
+    """Receptions at all stations."""
 
 
 def predict(case: Case, run: EngineRun) -> Prediction:
-    """Take from the run what was sent, and work out the rest."""
+    """Take the sent frames from the run, and compute the rest."""
     flights = [Flight(station) for station in case.stations]
     all_sent = transmissions(case, run, flights)
     heard, certain, noises_w, below_sensitivity = [], [], [], 0
@@ -52,7 +52,7 @@ def predict(case: Case, run: EngineRun) -> Prediction:
 
 
 def _is_certain(arrivals: Sequence[Arrival], own: Sequence[Transmission]) -> bool:
-    """Whether no two events are so near that a start which is not known exactly changes their order."""
+    """Return whether no two events are so near that an inexact start changes their order."""
     events = sorted(
         (time_ps, part.slack_ps, part.order)
         for part, times in [

@@ -1,21 +1,19 @@
-"""What one radio makes of what arrives at it: the model text as a loop over its events.
+"""One radio with its arrivals: the model text as a loop over events.
 
-Slow and obvious on purpose: every arrival is an event, and every question about interference is answered by
-looking at all arrivals. Nothing here comes from the engine; only the random stream of the receiver, which is
-part of a scenario's result, is the same: one number for each decision about a frame, or about a part of it.
+Slow and obvious on purpose: every arrival is an event, and interference is computed from all arrivals.
+Nothing here comes from the engine, except the random stream of the receiver, which is part of a scenario's
+result: one number for each decision about a frame, or about a part of it.
 
-A radio that is not transmitting and not locked locks on to an arrival that reaches its sensitivity. Locked,
-it takes all others for interference, and so it does with frames of channels that only overlap with its own,
-and with those of modes that it has not.
-What starts while it transmits is never received, and a transmission of its own ends a reception. A frame
-survives if its SNIR is above the threshold, strictly, and the number drawn is below the chance that all its
-bits are right.
+A radio that is not transmitting and not locked locks on to an arrival that reaches its sensitivity. Then all
+other arrivals are interference. So are frames of channels that only overlap with its own, and frames of modes
+that the radio does not have. A frame that starts while the radio transmits is never received, and its own
+transmission ends a reception. A frame survives if its SNIR is strictly above the threshold, and its random
+number is below the probability that all its bits are correct.
 
-Options: the PHY header and the data each for itself, with all changes of the interference ("chunks");
-detection of preambles, where the strongest of those that begin together wins; frame capture by a stronger
-newcomer.
+Options: PHY header and data are decided separately, with all changes of the interference ("chunks"). Preamble
+detection selects the strongest of frames that start together. Frame capture drops a frame for a stronger one.
 
-Of events of one time, those scheduled earlier come first.
+Events of equal time run in the order in which they were scheduled.
 """
 
 from collections import Counter
@@ -33,13 +31,13 @@ from verification.oracle.physics import FrameFormat
 
 @dataclass(frozen=True)
 class Transmission:
-    """One frame as it was sent. The order is that of the starts."""
+    """A frame as sent. The order is that of the starts."""
 
     order: int
     sender: int
     start_ps: int
     slack_ps: int
-    """How much later it may have started: the engine's record of it is no more exact."""
+    """Upper limit of its delay: the engine's record is not more exact."""
     kind: str
     octets: bytes
     """Without the FCS."""
@@ -57,7 +55,7 @@ class Arrival:
     sent: Transmission
     start_ps: int
     power_w: float
-    """What of it is in the receiver's band."""
+    """Power within the receiver's band."""
     is_decodable: bool
     """Whether the receiver can decode it; otherwise it is noise."""
 
@@ -68,7 +66,7 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Reception:
-    """A frame that a radio was locked on to until its end."""
+    """A frame to which a radio was locked until its end."""
 
     arrival: Arrival
     decoded: bool
@@ -76,19 +74,19 @@ class Reception:
 
 @dataclass
 class Heard:
-    """All that one radio got."""
+    """Everything received by one radio."""
 
     receptions: list[Reception] = field(default_factory=list)
     fates: Counter[tuple[str, str]] = field(default_factory=Counter)
-    """Of the arrivals that reach the sensitivity, by (kind, fate)."""
+    """Outcomes of arrivals that reach the sensitivity, by (kind, outcome)."""
     busy_ps: list[tuple[int, int]] = field(default_factory=list)
-    """From when until when the channel was busy."""
+    """Start and end of each period in which the channel was busy."""
     uncertain: int = 0
-    """Receptions with a chance from 1 % to 99 %: the random number decided."""
+    """Receptions with a probability from 1 % to 99 %: the random number decided."""
 
 
 class Radio:
-    """One radio through a whole run; `heard` is what comes out."""
+    """One radio over a whole run; `heard` is its result."""
 
     def __init__(
         self,
@@ -130,9 +128,9 @@ class Radio:
         self._at(self._now_ps + delay_us * 1_000_000, action, self._now_ps, 1_000_000)
 
     def _sense(self) -> None:
-        """The channel is busy while the radio sends or receives, and with enough energy.
+        """Update the channel: busy while the radio sends or receives, and with enough energy.
 
-        Where preambles are detected, energy is sensed as slowly as they are.
+        With preamble detection, energy is sensed as slowly as preambles.
         """
         energy_w = self._noise_w + sum(
             arrival.power_w for arrival in self._present if not self._is_detecting(arrival)
@@ -250,7 +248,7 @@ class Radio:
     def _book(self, arrival: Arrival, fate: str) -> None:
         self.heard.fates[arrival.sent.kind, fate] += 1
 
-    # Chances, each with the interference and without.
+    # Probabilities, with and without interference.
 
     def _chances_at_once(self, arrival: Arrival) -> tuple[float, float]:
         period_ps = arrival.start_ps, arrival.end_ps
@@ -289,19 +287,19 @@ class Radio:
     # Interference.
 
     def _interference_w(self, arrival: Arrival, time_ps: int) -> float:
-        """What all other arrivals bring at that time."""
+        """Return the power of all other arrivals at that time."""
         return sum(
             other.power_w for other in self._beside(arrival) if other.start_ps <= time_ps < other.end_ps
         )
 
     def _changes(self, arrival: Arrival, period_ps: tuple[int, int]) -> list[int]:
-        """The start of the period and all times within it at which the interference changes."""
+        """Return the start of the period and all times within it at which the interference changes."""
         start_ps, end_ps = period_ps
         times = {time for other in self._beside(arrival) for time in (other.start_ps, other.end_ps)}
         return [start_ps, *sorted(time for time in times if start_ps < time < end_ps)]
 
     def _beside(self, arrival: Arrival) -> list[Arrival]:
-        """All others that are there at any moment of it."""
+        """Return all other arrivals that overlap with it."""
         order = arrival.sent.order
         if order not in self._neighbours:
             self._neighbours[order] = [

@@ -1,8 +1,8 @@
-"""Cases by seed: networks in which all that the oracle knows happens, and happens often.
+"""Cases by seed: networks in which all features of the oracle occur often.
 
-Stations at random places, in networks from a metre (few: a centimetre) to kilometers wide, send in bursts;
-many of them are deaf, so that nothing keeps them from sending while others do. For thresholds that are met
-exactly see `exact_case`.
+Stations at random places, in networks from a meter (few: a centimeter) to kilometers wide, send in bursts.
+Many of them are deaf, so that they send while others do. For thresholds that are met exactly see
+`exact_case`.
 """
 
 from dataclasses import dataclass, replace
@@ -38,11 +38,11 @@ CARRIERS_HZ = (2.412e9, 2.437e9, 2.422e9)
 BANDWIDTH_HZ = 22e6
 BURST_NS = 4_000_000
 DEAF_W = 1e9
-"""More than anybody ever gets: a station with that sensitivity waits for nobody."""
+"""More than any received power: a station with that sensitivity never waits."""
 
 
 def random_case(seed: int) -> Case:
-    """The case of that seed."""
+    """Return the case of that seed."""
     draw = Random(seed)
     style = _Style.drawn(draw)
     stations = [_station(draw, style, index) for index in range(style.count)]
@@ -52,11 +52,11 @@ def random_case(seed: int) -> Case:
 
 @dataclass(frozen=True)
 class _Style:
-    """What the stations of a network have in common."""
+    """Common properties of the stations of a network."""
 
     count: int
     op_modes: tuple[str, ...]
-    """One for all, or of which each station draws its own."""
+    """One for all stations, or several to draw from."""
     size_m: float
     sensitivity_w: float
     tx_power_w: float
@@ -65,7 +65,7 @@ class _Style:
     bursts: int
     snir_threshold: float
     unicast: float
-    """The share of messages, as the following are shares of stations."""
+    """Ratio of messages; the following are ratios of stations."""
     deaf: float
     flying: float
     by_chunks: float
@@ -78,7 +78,7 @@ class _Style:
         size_m = _wide(draw, 0, 3.7) if draw.random() < 0.97 else _wide(draw, -2, 0)
         sensitivity_w = 10**-11.5 if draw.random() < 0.5 else _wide(draw, -13, -9)
         air = _air(draw, sensitivity_w)
-        # So that typical arrivals are about as strong as they must be, or stronger.
+        # Typical arrivals are about as strong as necessary, or stronger.
         at_half_w = sensitivity_w * _wide(draw, -0.5, 2.5)
         return cls(
             count=draw.randint(2, 12) if draw.random() < 0.99 else draw.randint(30, 60),
@@ -101,7 +101,7 @@ class _Style:
 
 
 def _wide(draw: Random, low: float, high: float) -> float:
-    """A number between two powers of ten."""
+    """Return a number between two powers of ten."""
     return float(10 ** draw.uniform(low, high))
 
 
@@ -133,7 +133,7 @@ def _station(draw: Random, style: _Style, index: int) -> Station:
         sends=tuple(_sends(draw, style, index, rate_mbps)),
         courses=tuple(_courses(draw, style)) if draw.random() < style.flying else (),
     )
-    # The engine wants a channel that is free when nobody sends.
+    # The engine requires a channel that is free without transmissions.
     least_w = 1.5 * noise_w(style.air, bare)
     return _changed(bare, energy_detection_w=max(bare.receiver.energy_detection_w, least_w))
 
@@ -143,7 +143,7 @@ def _changed(station: Station, **fields: Any) -> Station:
 
 
 def _on_the_edge(draw: Random, style: _Style, stations: list[Station]) -> list[Station]:
-    """Some stations get levels and thresholds that one of the others just meets, or just does not."""
+    """Give some stations levels and thresholds that one of the others just meets, or just misses."""
     edged = []
     for station in stations:
         sender = draw.choice(stations)
@@ -191,7 +191,7 @@ def _receiver(draw: Random, style: _Style) -> Receiver:
 
 
 def _sends(draw: Random, style: _Style, index: int, rate_mbps: float) -> list[Send]:
-    """At most one for each burst, short enough to be over soon."""
+    """Return at most one for each burst, short enough to end soon."""
     sends = []
     most_bytes = min(1400.0, 150 * rate_mbps)
     others = [other for other in range(style.count) if other != index]
@@ -209,7 +209,7 @@ def _sends(draw: Random, style: _Style, index: int, rate_mbps: float) -> list[Se
 
 
 def _courses(draw: Random, style: _Style) -> list[Course]:
-    """Fast, for otherwise hardly any distance would change while a frame lasts."""
+    """Return fast flights; otherwise distances would hardly change during a frame."""
     end_ns = (style.bursts + 1) * BURST_NS
     crossing_mps = style.size_m / (end_ns * 1e-9)
     return [

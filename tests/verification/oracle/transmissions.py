@@ -1,8 +1,8 @@
-"""What was sent, when to the picosecond, and how it arrives elsewhere.
+"""Sent frames with times exact to the picosecond, and their arrivals.
 
-Captures are cut to nanoseconds, so one of the moments within that nanosecond at which anything happened in
-the engine was the start. If there are several, it helps that all waits of a MAC are whole microseconds,
-counted from something that happened at the station before.
+Captures are truncated to nanoseconds. So the start is one of the times within that nanosecond at which the
+engine had an event. If there are several, it helps that all waits of a MAC are integers of microseconds,
+counted from an earlier event at the station.
 """
 
 from bisect import bisect_left
@@ -22,7 +22,7 @@ LONGEST_WAIT_PS = 20_000 * PS_PER_US
 
 
 def transmissions(case: Case, run: EngineRun, flights: Sequence[Flight]) -> list[Transmission]:
-    """All of a run, in the order of their starts; of equal ones the lower station's comes first."""
+    """Return all transmissions of a run, by start; at equal times the lower station comes first."""
     captured = sorted(
         ((frame, sender) for sender, frames in enumerate(run.sent) for frame in frames),
         key=lambda pair: (pair[0].time_ns, pair[1]),
@@ -50,7 +50,7 @@ def transmissions(case: Case, run: EngineRun, flights: Sequence[Flight]) -> list
 
 
 def arrival_at(case: Case, flights: Sequence[Flight], sent: Transmission, receiver: int) -> Arrival:
-    """Both ends of the way are where they are when the transmission starts."""
+    """Both ends of the path have their positions at the start of the transmission."""
     sender = case.stations[sent.sender]
     distance_m = dist(
         flights[sent.sender].position_at(sent.start_ps), flights[receiver].position_at(sent.start_ps)
@@ -63,7 +63,7 @@ def arrival_at(case: Case, flights: Sequence[Flight], sent: Transmission, receiv
 
 
 def share_in_band(sender: Station, receiver: Station) -> float:
-    """Of a power spread evenly over the sender's band, what lies in the receiver's."""
+    """Return the part of a power, spread evenly over the sender's band, in the receiver's band."""
     edges = [
         (station.carrier_hz - station.bandwidth_hz / 2, station.carrier_hz + station.bandwidth_hz / 2)
         for station in (sender, receiver)
@@ -84,7 +84,7 @@ def _possible_starts(station: Station, frame: CapturedFrame, instants_ps: Sequen
 def _happened_at(
     case: Case, flights: Sequence[Flight], found: Sequence[Transmission], station: int
 ) -> Iterator[int]:
-    """Starts at that station, and with them ends but for whole microseconds, of what was sent lately."""
+    """Return starts at that station, and ends up to integers of microseconds, of recent transmissions."""
     for sent in found:
         if sent.end_ps < found[-1].start_ps - LONGEST_WAIT_PS or sent.slack_ps:
             continue
