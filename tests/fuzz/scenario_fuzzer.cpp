@@ -1,4 +1,4 @@
-// Searches for bytes whose scenario crashes, hangs or leaves a ledger out of balance. `make fuzz`
+// Searches for bytes whose scenario crashes, hangs or leaves outcomes out of balance. `make fuzz`
 // runs it.
 #include <cstdio>
 #include <cstdlib>

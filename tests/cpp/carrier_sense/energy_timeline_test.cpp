@@ -9,7 +9,7 @@ namespace {
 
 constexpr double level_w = 1e-12;
 constexpr double noise_w = 1e-14;
-constexpr double tiny_w = 1e-20;  // beside the level
+constexpr double tiny_w = 1e-20;  // relative to the level
 
 SimTime us(std::int64_t microseconds) {
     return SimTime::from_us(microseconds);
@@ -68,7 +68,7 @@ TEST_F(EnergyTimelineTest, ReportsEachOnce) {
 TEST_F(EnergyTimelineTest, HeadroomIsInfiniteWhereEnoughIsReported) {
     timeline.add_unreported({1, us(1), us(10), 0.6 * level_w});
     timeline.add_unreported({2, us(2), us(11), 0.7 * level_w});
-    // Before and after the overlap, there is one of them.
+    // Before and after the overlap, there is only one of them.
     EXPECT_NEAR(notified.report_missing(), 0.3 * level_w - noise_w, tiny_w);
     EXPECT_EQ(notified.ids.size(), 2U);
 }
@@ -171,7 +171,7 @@ TEST_F(EnergyTimelineTest, ReportedUntilNowIfTheyDoNotSuffice) {
     EXPECT_EQ(timeline.reported_until(level_w), us(0));
 }
 
-// It may not have begun yet: events of one instant have an order.
+// It may not have started yet: events of one instant have an order.
 TEST_F(EnergyTimelineTest, ReportedUntilNowIfTheyBeginNow) {
     timeline.add_reported({1, us(0), us(10), 2 * level_w}, us(0), true);
     EXPECT_EQ(timeline.reported_until(level_w), us(0));
@@ -222,7 +222,7 @@ TEST(EnergyTimeline, ReportedEnergySufficesAtAnyTime) {
         EnergyTimeline timeline;
         timeline.begin(noise_w);
         std::vector<Sent> sent;
-        const std::int64_t span_us = draws.uniform() < 0.5 ? 30 : 10'000;  // many in one moment, or few
+        const std::int64_t span_us = draws.uniform() < 0.5 ? 30 : 10'000;  // many at one moment, or few
         for (std::uint64_t id = 0; id < 40; ++id) {
             const SimTime now = us(static_cast<std::int64_t>(id));
             timeline.begin_at(now);

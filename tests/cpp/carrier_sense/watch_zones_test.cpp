@@ -9,7 +9,7 @@ namespace {
 
 constexpr double level_w = 1e-12;
 
-// Power 1e-12 W at 100 m, falling with the square.
+// Power 1e-12 W at 100 m, decreasing with the square.
 double reach_m(double power_w) {
     return 100 * std::sqrt(level_w / power_w);
 }
@@ -28,7 +28,7 @@ WatchZones ring_alone() {
     return zones;
 }
 
-// As the medium does it: zone by zone only if the first zone may not suffice.
+// As in the medium: zone by zone only if the first zone may not suffice.
 WatchZones ring_beside(double between_m, std::size_t count = 1) {
     WatchZones zones = ring_alone();
     for (std::size_t i = 0; i < count; ++i) {
@@ -83,11 +83,11 @@ TEST(WatchZones, WatchesNoReceiverBeforeThereAreOthersWithoutZones) {
 }
 
 TEST(WatchZones, ReachesToHalfTheLevelForTwoEqualPowers) {
-    // Midway between them, each brings half of the level.
+    // Halfway between them, each contributes half of the level.
     EXPECT_GE(ring_beside(2 * 100 * std::sqrt(2) - 1).radius_m(), 100 * std::sqrt(2) - 1);
 }
 
-// Wherever the sum reaches the level is in the watch zones of the strongest.
+// Each place at which the sum reaches the level is in the watch zones of the strongest.
 TEST(WatchZones, IncludesAllReceiversWithTheLevel) {
     for (const double between_m : {50.0, 150.0, 220.0, 250.0, 280.0, 300.0, 500.0, 600.0, 750.0, 1500.0}) {
         for (const std::size_t count : {1U, 2U, 4U, 5U, 20U, 300U}) {
@@ -105,7 +105,7 @@ TEST(WatchZones, IncludesAllReceiversWithTheLevel) {
     }
 }
 
-// Far out, where it is weak, very many may add up, none stronger than it.
+// Far away, where it is weak, many weaker signals may add up.
 TEST(WatchZones, FirstZoneDoesNotSufficeForMany) {
     WatchZones zones = ring_alone();
     const auto nothing_near = [](double radius_m) { return radius_m < 300 ? 0 : level_w / 10; };

@@ -1,4 +1,4 @@
-// The text of the ConfigError that a check raises, for tests that compare it; "no error" if there
+// The text of the ConfigError that a check raises, for comparisons in tests; "no error" if there
 // is none.
 #pragma once
 

@@ -49,7 +49,7 @@ private:
                                                           {&ObstacleConfig::schema, &obstacle_}};
 };
 
-// The field that the check of the struct reports, "" for none.
+// The field that the check of the struct reports; "" for none.
 std::string reported(const Schema& schema, const void* config) {
     try {
         check_fields(schema, config);
@@ -68,7 +68,7 @@ void set_number(const Field& field, void* config, double value) {
     }
 }
 
-// Values just outside of the range of a field.
+// Values just outside the range of a field.
 std::vector<double> wrong_numbers(const Field& field) {
     Examples examples;
     const ValueType& type = field.type;
@@ -155,7 +155,7 @@ TEST(Field, ModelsThatReadAFieldCanBeChosen) {
             }
         }
     }
-    choices.insert("mobility.typename = ArdupilotMobility");  // scenario files know it
+    choices.insert("mobility.typename = ArdupilotMobility");  // scenario files support it
     for (const Schema* schema : all_schemas()) {
         for (const Field& field : schema->fields) {
             const ReadBy read_by = field.read_by.value_or(schema->read_by);

@@ -33,7 +33,7 @@ double length_inside_m(const Prism& prism, const Position& a, const Position& b)
     return sum_m;
 }
 
-// What a prism is, point by point; the footprint by the winding of all rings around the point.
+// Definition of a prism, point by point; the footprint by the winding of all rings around the point.
 bool is_inside(const std::vector<Ring>& rings, double base_m, double top_m, const Position& place) {
     if (place.z <= base_m || place.z >= top_m) {
         return false;
@@ -170,7 +170,7 @@ TEST(Prism, ACourtyardIsOutside) {
 TEST(Prism, AnLMayBeCrossedTwice) {
     const Prism corner({{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {2, 10}, {0, 10}}}, 0, 5);
     EXPECT_EQ(stretches(corner, {-1, 9, 1}, {9, -1, 1}).size(), 2U);
-    // Along the inner wall, and on through the other wing.
+    // Along the inner wall, and through the other wing.
     EXPECT_NEAR(length_inside_m(corner, {12, 2, 1}, {-1, 2, 1}), 2, 1e-12);
 }
 
@@ -180,7 +180,7 @@ struct Body {
     double top_m = 0;
 };
 
-// A star of random radii around a random place, not convex as a rule, sometimes with a courtyard.
+// A star of random radii around a random place, usually not convex, sometimes with a courtyard.
 Body random_body(RandomStream& draws) {
     const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
     Body body;

@@ -20,7 +20,7 @@ constexpr SimTime at(std::int64_t ps) {
     return SimTime::from_ps(ps);
 }
 
-// A queue whose events write their names into a log.
+// A queue whose events append their names to a log.
 class LoggingQueue {
 public:
     EventHandle push(SimTime time, Priority priority, int name) {
@@ -287,8 +287,8 @@ TEST_P(EventQueueOracle, AgreesWithASortedMap) {
     };
     const int push_weight = 30 + draw(50);
     const int cancel_weight = draw(40);
-    // From so few that all lie in the heap to so many that most do not, and from one instant to
-    // hours ahead.
+    // From few events, all of which are in the heap, to many, most of which are not; and from one
+    // instant to hours ahead.
     const int pushed_first = draw(3000);
     const std::int64_t max_ahead = std::int64_t{1} << (2 + draw(50));
     const auto draw_ahead = [&] {

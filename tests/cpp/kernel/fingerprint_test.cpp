@@ -31,7 +31,7 @@ TEST(Fingerprint, IsTheSameForTheSameCourse) {
     EXPECT_EQ(of_texts({"one", "two"}), of_texts({"one", "two"}));
 }
 
-// Recorded: fingerprints are kept in files, so the hash must not change.
+// Recorded: fingerprints are stored in files, so the hash must not change.
 TEST(Fingerprint, IsTheSameInEveryVersion) {
     EXPECT_EQ(of_words({}), 0x243F6A8885A308D3U);
     EXPECT_EQ(of_words({1, 2, 3}), 0x3A740D7336B91E8FU);

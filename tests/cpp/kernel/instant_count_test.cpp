@@ -5,7 +5,7 @@
 namespace netsim {
 namespace {
 
-// The first at which it says that it is exceeded, of many at one instant.
+// The first call that reports an excess, of many at one instant.
 std::int32_t first_too_many(InstantCount& count, SimTime instant) {
     std::int32_t number = 1;
     while (!count.exceeds(instant)) {

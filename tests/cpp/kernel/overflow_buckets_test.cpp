@@ -100,7 +100,7 @@ TEST(OverflowBuckets, ErasedEventsAreNotOpened) {
     EXPECT_EQ(left, (std::vector<std::int64_t>{10, 30, end_of_time}));
 }
 
-// Whatever is added when, as long as it is far: batch by batch, time goes on and nothing is lost.
+// For any times of additions that are far ahead, time advances batch by batch, and nothing is lost.
 class OverflowBucketsInOrder : public testing::TestWithParam<unsigned> {};
 
 TEST_P(OverflowBucketsInOrder, BatchesFollowEachOther) {

@@ -12,7 +12,7 @@ namespace {
 
 using Words = std::array<std::uint32_t, 4>;
 
-// Known answers of Philox4x32-10 that its authors publish.
+// Known answers of Philox4x32-10, published by its authors.
 TEST(Philox, KnownAnswerForZeroes) {
     EXPECT_EQ(philox4x32({0, 0, 0, 0}, {0, 0}), (Words{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
 }

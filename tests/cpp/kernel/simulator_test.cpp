@@ -142,8 +142,8 @@ TEST(Simulator, AtTheEndOfAnInstantAllTurnsOfBeforeHavePassed) {
     EXPECT_TRUE(simulator.has_passed(us(1), earlier));
 }
 
-// An event at 1 µs and its successors, one a microsecond up to 5 µs, which go on without the queue
-// where they may.
+// An event at 1 µs and its successors, one per microsecond up to 5 µs. They bypass the queue if
+// possible.
 class Chain {
 public:
     explicit Chain(Simulator& simulator)
@@ -195,7 +195,7 @@ TEST(Simulator, DoesNotGoOnPastAnotherEvent) {
     std::size_t ran_before = 0;
     simulator.schedule_at(us(3), [&] { ran_before = chain.ran_at_us.size(); });
     simulator.run_until(us(10));
-    EXPECT_EQ(ran_before, 3U);  // of equal times, in the order of turns
+    EXPECT_EQ(ran_before, 3U);  // at equal times, by sequence number
     EXPECT_EQ(chain.passed_by_the_queue, 3);
 }
 

@@ -18,7 +18,7 @@ constexpr SimTime step = SimTime::from_us(100);  // between two attempts
 constexpr ArfRateControl::Parameters arf{interval, 10, 2};
 constexpr ArfRateControl::Parameters aarf{interval, 10, 2, 2, 50};
 
-// One station, a at 24 Mbps at first, that attempts again and again.
+// One 802.11a station, at 24 Mbps at first, that sends continuously.
 class Attempts {
 public:
     explicit Attempts(const ArfRateControl::Parameters& parameters, const char* op_mode = "a",
@@ -28,7 +28,7 @@ public:
     double mode_mbps(NodeId destination = 1) {
         return static_cast<double>(control.mode_for({destination, 100, 0}, now).bitrate_bps) / 1e6;
     }
-    // Of each attempt the rate in Mbps; '+' is a success, '-' a failure.
+    // Rate of each attempt in Mbps; '+' is a success, '-' a failure.
     std::vector<double> rates(std::string_view outcomes, NodeId destination = 1) {
         std::vector<double> used;
         for (const char outcome : outcomes) {
@@ -56,7 +56,7 @@ std::string successes(int count) {
 struct Script {
     const char* name;
     std::string outcomes;
-    double rate_mbps;  // of the attempt that follows
+    double rate_mbps;  // rate of the next attempt
 };
 
 class ArfScript : public testing::TestWithParam<Script> {};
@@ -158,7 +158,7 @@ TEST(ArfRateControl, TheRatesOfMixedModeAreThoseOfAllGenerationsByBitrate) {
     EXPECT_EQ(rates, (std::vector<double>{1, 2, 5.5, 6, 9, 11, 12, 18, 24, 36, 48, 54, 54}));
 }
 
-// For any outcomes: neighbors in the mode set only, up only after a success or the interval, down
+// For any outcomes: only neighbors in the mode set, up only after a success or the interval, down
 // only after a failure.
 TEST(ArfRateControl, TheRateMovesByOneStepInTheDirectionOfWhatHappened) {
     for (const ArfRateControl::Parameters& parameters : {arf, aarf}) {

@@ -1,4 +1,4 @@
-// EIFS, by the rules of the standard and by those of INET.
+// EIFS by the rules of the standard and of INET.
 #include <vector>
 
 #include <gtest/gtest.h>

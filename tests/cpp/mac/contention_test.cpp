@@ -1,4 +1,4 @@
-// The wait for the channel. EIFS is in contention_eifs_test.cpp.
+// Waiting for the channel. EIFS is in contention_eifs_test.cpp.
 #include "netsim/mac/contention.hpp"
 
 #include <set>
@@ -164,7 +164,7 @@ TEST_F(ContentionTest, ABackoffIsAWholeNumberOfSlotsFromZeroToTheWindow) {
     EXPECT_EQ(*slots.rbegin(), 15);
 }
 
-// A contention of which the number of slots is known, because it is the same in a run without
+// A contention with a known number of slots, because it is the same as in a run without
 // disturbance.
 class RemainingSlots : public ContentionTest {
 protected:

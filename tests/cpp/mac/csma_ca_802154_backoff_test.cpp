@@ -1,4 +1,4 @@
-// How long a device waits before it sends, and how it assesses the channel.
+// Backoff and channel assessment of a device.
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -67,7 +67,7 @@ TEST_F(CsmaCa802154BackoffTest, TheFrameAfterOneGivenUpStartsAfresh) {
     Device& sender = add_device({0, 0, 0}, config);
     BareRadio& jammer = add_jammer({0, 0, 0});
     Sniffer& sniffer = add_sniffer({0, 0, 0});
-    jam(jammer, cca * 9 + us(1));  // five assessments of the first frame, four of the second
+    jam(jammer, cca * 9 + us(1));  // five assessments of the first frame, four of the second one
     sender.send(broadcast_id, 50);
     sender.send(broadcast_id, 50);
     air.run();
@@ -126,7 +126,7 @@ TEST_F(CsmaCa802154BackoffTest, WhoDrawsTheLargerNumberHearsTheOther) {
     Device& second = add_device({30, 0, 0}, later);
     first.send(broadcast_id, 50);
     second.send(broadcast_id, 1);
-    // 320 µs + 2976 µs on the air; the second assesses the channel every 448 µs, five times.
+    // 320 µs + 2976 µs on the air; the second device assesses the channel every 448 µs, five times.
     air.run();
     EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
     EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);

@@ -1,4 +1,4 @@
-// Exchanges, repetitions, collisions and rests.
+// Exchanges, retries, collisions and interframe spaces.
 #include "netsim/mac/csma_ca_802154.hpp"
 
 #include <vector>
@@ -73,7 +73,7 @@ TEST_F(CsmaCa802154Test, WithoutAcksUnicastsAreSentOnce) {
     EXPECT_EQ(messages(MessageKind::unicast, MessageFate::sent), 1U);
 }
 
-// Each of the two asks for ACKs or does not, and answers those who do.
+// Each device requests ACKs or does not, and answers requests.
 TEST_F(CsmaCa802154Test, AFrameIsAcknowledgedIfItAsksForThat) {
     CsmaConfig does_not_ask;
     does_not_ask.use_acks = false;
@@ -179,8 +179,8 @@ TEST_F(CsmaCa802154Test, RepetitionsAreAcknowledgedButDeliveredOnce) {
     EXPECT_EQ(messages(MessageKind::unicast, MessageFate::retry_limit), 1U);
 }
 
-// 1600 m apart they are below each other's sensitivity, in the middle they are 5 dB above it. A
-// threshold of 1 dB keeps the spreading gain from saving the frame that comes first.
+// 1600 m apart they are below each other's sensitivity; in the middle they are 5 dB above it. With
+// a threshold of 1 dB the spreading gain does not save the first frame.
 TEST_F(CsmaCa802154Test, HiddenSendersCollide) {
     RadioConfig radio = narrowband();
     radio.snir_threshold = 1.26;

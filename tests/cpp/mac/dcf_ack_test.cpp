@@ -1,4 +1,4 @@
-// What the Dcf does when the ACK does not come, comes late, or something else comes instead.
+// The Dcf without an ACK, with a late ACK, and with another frame instead.
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ using test::without_backoff;
 
 using DcfAck = test::DcfPair;
 
-// Without an ACK, the sender's own NAV runs until the ACK would be over; the next attempt comes
-// DIFS after that.
+// Without an ACK, the sender's own NAV runs until the expected end of the ACK; the next attempt
+// comes DIFS after that.
 TEST_F(DcfAck, AFrameWithoutAckIsRepeated) {
     add_pair_without_way_back(without_backoff());
     a->send(b->id(), 100);
@@ -36,8 +36,8 @@ TEST_F(DcfAck, AFrameWithoutAckIsRepeated) {
     EXPECT_EQ(given_up(), 1U);
 }
 
-// Where the ACK would last longer than the timeout waits for its beginning, the medium is free only
-// after the NAV.
+// If the ACK is longer than the timeout waits for its start, the medium is free only after the
+// NAV.
 TEST_F(DcfAck, ASlowAckIsWaitedForByTheNav) {
     MacConfig mac = without_backoff();
     mac.bitrate_bps = 1e6;
@@ -62,7 +62,7 @@ TEST_F(DcfAck, GivesUpWhenTheAckTimeoutOfTheLastAttemptIsOver) {
 }
 
 TEST_F(DcfAck, AnAckThatHasBegunByTheTimeoutIsWaitedFor) {
-    // At 44 light microseconds to and fro, the ACK begins 54 us after the end of the data and ends
+    // At 44 light microseconds back and forth, the ACK starts 54 us after the end of the data and ends
     // at 88 us.
     MacConfig mac;
     a = &air.add_station({0, 0, 0}, mac, test::radio_of_power(100));

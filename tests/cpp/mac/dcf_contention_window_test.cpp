@@ -1,4 +1,4 @@
-// How the contention window of the Dcf grows and shrinks.
+// Growth and reset of the Dcf's contention window.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -24,12 +24,12 @@ using test::Sniffer;
 using test::Station;
 using test::us;
 
-// The slots before each attempt of messages that are never acknowledged.
+// Slots before each attempt of messages that are never acknowledged.
 class ContentionWindow : public testing::Test {
 protected:
     static constexpr int seeds = 150;
 
-    // slots[attempt] of all seeds, of so many messages with so many attempts each.
+    // slots[attempt] of all seeds, of `messages` messages with `attempts` attempts each.
     static std::vector<std::vector<std::int64_t>> slots_of_attempts(const MacConfig& mac,
                                                                     std::size_t messages = 2,
                                                                     std::size_t attempts = 7) {
@@ -58,7 +58,7 @@ protected:
         const auto [least, most] = std::minmax_element(slots.begin(), slots.end());
         EXPECT_GE(*least, 0);
         EXPECT_LE(*most, window);
-        EXPECT_GT(*most, window * 9 / 10);  // misses with a chance of 0.9^150
+        EXPECT_GT(*most, window * 9 / 10);  // fails with a probability of 0.9^150
     }
 };
 
@@ -79,7 +79,7 @@ TEST_F(ContentionWindow, IsItsMinimumOnlyOnceWithStationCounters) {
     MacConfig mac;
     mac.short_retry_limit = 4;
     mac.inet_station_retry_counters = true;
-    // Of three messages, with a limit of four failures.
+    // For three messages, with a limit of four failures.
     const std::vector<std::int64_t> windows{63, 127, 255, 31, 63, 127, 255, 511};
     const auto slots = slots_of_attempts(mac, 3, 4);
     for (std::size_t attempt = 1; attempt <= windows.size(); ++attempt) {
@@ -88,8 +88,8 @@ TEST_F(ContentionWindow, IsItsMinimumOnlyOnceWithStationCounters) {
     }
 }
 
-// Of three messages that fail: without the broadcast, the failures of the first two would count
-// together.
+// For three messages that fail: without the broadcast, the failures of the first two would add
+// up.
 TEST_F(ContentionWindow, ABroadcastSetsTheStationCountersBack) {
     MacConfig mac;
     mac.short_retry_limit = 4;
@@ -112,9 +112,9 @@ TEST_F(ContentionWindow, ABroadcastSetsTheStationCountersBack) {
     expect_draws_up_to(slots, 31);
 }
 
-// Three RTS fail, the fourth one is answered, its data is lost, and the fifth one fails: the last
-// failure of the frame is the first one of the station after the CTS, and doubles the window once
-// more.
+// Three RTS fail, the fourth one is answered, its data is lost, and the fifth one fails. The last
+// failure of the frame is the first one of the station after the CTS, and doubles the window
+// again.
 TEST_F(ContentionWindow, ACtsSetsTheStationCounterOfRtsBack) {
     MacConfig mac;
     mac.rts_threshold_bytes = 0;

@@ -1,4 +1,4 @@
-// What the Dcf does while others have reserved the channel. RTS and CTS are in dcf_rts_test.cpp.
+// The Dcf while other stations reserve the channel. RTS and CTS are in dcf_rts_test.cpp.
 #include <gtest/gtest.h>
 
 #include "netsim/mac/dcf.hpp"
@@ -20,7 +20,7 @@ using test::Station;
 using test::us;
 using test::without_backoff;
 
-// Station c hears a, but not b's answer to it.
+// Station c hears a, but not b's response.
 class HiddenResponder : public testing::Test {
 protected:
     static constexpr double hop_m = light_microsecond_m;
@@ -64,7 +64,7 @@ TEST_F(HiddenResponder, TheNavCountsAsBusyForImmediateAccess) {
     EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(0).start, data_end_at_c + sifs + ack_duration + difs);
 }
 
-// Nobody told the station's contention of a NAV that began and ended before there was something to
+// The contention is not notified of a NAV that starts and ends before there is something to
 // send.
 TEST_F(HiddenResponder, ANavThatIsOverCountsAsBusyForImmediateAccess) {
     a->send(b->id(), 100);

@@ -1,4 +1,4 @@
-// What is refused of a configuration before a station is built.
+// Configurations that are rejected before a station is built.
 #include "netsim/mac/dcf_parameters.hpp"
 
 #include <string>
@@ -60,7 +60,7 @@ TEST(DcfParameters, TheErrorNamesBothWindows) {
     }
 }
 
-// As far back a new message asks what made its channel busy.
+// Age limit of the query of a new message for the cause of its busy channel.
 TEST(DcfParameters, TheLongestWaitIsThatOfTheLargestWindowThatANewMessageMayFind) {
     MacConfig mac = mac_of("g(erp)", 24e6);  // DIFS 28 µs, slots of 9 µs
     mac.cw_min = 7;

@@ -1,5 +1,5 @@
-// The Dcf with a rate control. Durations as in dcf_test.cpp: g(erp), 164 B with all headers, ACK 14
-// B.
+// The Dcf with rate control. Durations as in dcf_test.cpp: g(erp), 164 B with all headers, ACK of
+// 14 B.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -30,7 +30,7 @@ MacConfig mac_with(const char* rate_control, double initial_rate_bps = -1) {
     return config;
 }
 
-// Keeps the frames of one kind: how long they were on the air, and what they announced.
+// Records the frames of one kind: their durations, and the durations that they announce.
 class Listener final : public MediumListener {
 public:
     struct Frame {
@@ -89,7 +89,7 @@ protected:
     Station* b = nullptr;
 };
 
-// The ACKs are too weak for the sender: 24 24 18 18 12 12 9 Mbps, and a frame given up.
+// The ACKs are too weak for the sender: 24 24 18 18 12 12 9 Mbps, and a dropped frame.
 TEST_F(DcfRateControl, EachRetryHasTheModeThatTheFailuresSoFarLeadTo) {
     add_pair(mac_with("ArfRateControl"), test::radio_of_power(1e-6));
     a->send(b->id(), 100);
@@ -98,7 +98,7 @@ TEST_F(DcfRateControl, EachRetryHasTheModeThatTheFailuresSoFarLeadTo) {
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
 }
 
-// All but the last attempt at 24 Mbps, that one at 6.
+// All attempts but the last at 24 Mbps, the last one at 6 Mbps.
 TEST_F(DcfRateControl, EachRetryGoesDownTheChainOfMinstrel) {
     MacConfig mac = mac_with("MinstrelRateControl");
     mac.look_around_share = 0;
@@ -131,8 +131,8 @@ TEST_F(DcfRateControl, DurationFieldsAndAcksFollowTheMode) {
     EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 21U);
 }
 
-// Both RTS are at 24 Mbps. The one of the eleventh frame announces a frame that is faster: 138
-// instead of 178 µs, and its ACK 38 instead of 50 µs.
+// Both RTS are at 24 Mbps. The RTS of the eleventh frame announces a faster frame: 138 instead of
+// 178 µs, and its ACK 38 instead of 50 µs.
 TEST_F(DcfRateControl, RtsKeepsItsModeAndAnnouncesTheModeOfTheData) {
     MacConfig mac = mac_with("ArfRateControl", 9e6);
     mac.rts_threshold_bytes = 0;
@@ -150,7 +150,7 @@ TEST_F(DcfRateControl, RtsKeepsItsModeAndAnnouncesTheModeOfTheData) {
     EXPECT_EQ(data.durations_us().back(), 138);
 }
 
-// Nobody answers: 4 RTS fail, none of which says anything about rates of data.
+// No station answers: 4 RTS fail, which says nothing about data rates.
 TEST_F(DcfRateControl, AnRtsThatFailsDoesNotCount) {
     MacConfig mac = mac_with("ArfRateControl");
     mac.rts_threshold_bytes = 0;
@@ -191,8 +191,8 @@ TEST_F(DcfRateControl, WithoutOneNothingIsCounted) {
     EXPECT_TRUE(a->dcf.frames_by_bitrate().empty());
 }
 
-// Messages of 1000 B that one of two stations gets across in `duration`, nothing but noise of -90
-// dBm in the way.
+// Messages of 1000 B that one of two stations delivers in `duration`, limited only by noise of
+// -90 dBm.
 std::uint64_t delivered(const MacConfig& mac, double distance_m, SimTime duration) {
     MediumConfig medium;
     medium.background_noise_w = 1e-12;
@@ -239,7 +239,7 @@ TEST_P(RateControlOverDistance, GetsMostOfWhatTheBestFixedRateGets) {
     }
 }
 
-// Signal to noise falls from 29 dB to 5 dB.
+// SNR decreases from 29 dB to 5 dB.
 INSTANTIATE_TEST_SUITE_P(Distances, RateControlOverDistance,
                          testing::Values(50.0, 170.0, 280.0, 420.0, 780.0),
                          [](const auto& test) { return std::to_string(std::lround(test.param)) + "m"; });

@@ -1,5 +1,5 @@
-// Exchanges of the Dcf that begin with RTS and CTS, with instants computed by hand as in
-// dcf_test.cpp, and which frames begin so.
+// Exchanges of the Dcf that start with RTS and CTS, with instants computed by hand as in
+// dcf_test.cpp, and the frames that start such exchanges.
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -53,7 +53,7 @@ std::vector<SimTime> starts(const Sniffer& sniffer, FrameKind kind) {
     return times;
 }
 
-// A station and a bare radio, both at the same place, that speaks to it by hand.
+// A station and a bare radio at the same place, which the test controls.
 class RtsTest : public testing::Test {
 protected:
     void add(const MacConfig& mac, double distance_m = 0) {
@@ -69,7 +69,7 @@ protected:
     std::uint64_t given_up() const {
         return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
     }
-    // The first message, in that very instant.
+    // The first message, at the same instant.
     void expect_given_up_at(SimTime time) {
         air.run(time - SimTime::from_ps(1));
         EXPECT_EQ(given_up(), 0U);
@@ -133,11 +133,11 @@ TEST_F(RtsTest, AnRtsThatEndsWithTheNavIsAnswered) {
     EXPECT_EQ(starts(*sniffer, FrameKind::cts), (std::vector{us(0), us(166) + rts_duration + sifs}));
 }
 
-// The CTS announces what is left of the RTS's announcement. The third station hears the responder
-// only.
+// The CTS announces the rest of the RTS's announcement. The third station hears only the
+// responder.
 TEST_F(RtsTest, TheCtsSilencesThoseWhoDoNotHearTheRts) {
     add(MacConfig());
-    RadioConfig near_deaf;  // hears what is twice as strong as anything from two hops away
+    RadioConfig near_deaf;  // hears only signals twice as strong as those from two hops away
     near_deaf.sensitivity_w = near_deaf.energy_detection_w =
         2 * RadioConfig().tx_power_w *
         make_path_loss(MediumConfig()).gain(2 * light_microsecond_m, RadioConfig().carrier_hz);
@@ -182,7 +182,7 @@ TEST_F(RtsTest, TheTimeoutIsThatOfACtsInTheModeOfTheRts) {
 }
 
 TEST_F(RtsTest, ACtsThatHasBegunByTheTimeoutIsWaitedFor) {
-    // At 44 light microseconds to and fro, the CTS begins 54 us after the end of the RTS and ends
+    // At 44 light microseconds back and forth, the CTS starts 54 us after the end of the RTS and ends
     // at 88 us.
     Station& a = air.add_station({0, 0, 0}, with_rts(), test::radio_of_power(100));
     Station& b = air.add_station({22 * light_microsecond_m, 0, 0}, with_rts(), test::radio_of_power(100));
@@ -211,7 +211,7 @@ TEST_F(RtsTest, AnotherFrameInsteadOfTheCtsIsAFailure) {
     EXPECT_EQ(given_up(), 1U);
 }
 
-// As INET has it: the next attempt comes when the exchange would have been over.
+// As in INET: the next attempt comes at the expected end of the exchange.
 TEST_F(RtsTest, AFailedRtsIsRepeatedAfterItsOwnNav) {
     add(with_rts_without_backoff());
     station->send(stranger, 100);
@@ -223,8 +223,7 @@ TEST_F(RtsTest, AFailedRtsIsRepeatedAfterItsOwnNav) {
     EXPECT_EQ(starts(*sniffer, FrameKind::rts), expected);
 }
 
-// As INET has it: after its CTS, a station waits for the exchange to be over, also if no data
-// comes.
+// As in INET: after its CTS, a station waits for the end of the exchange, even without data.
 TEST_F(RtsTest, TheOwnCtsSetsTheNav) {
     add(with_rts_without_backoff());
     peer_sends(us(0), FrameKind::rts, station->id(), us(1000));
@@ -234,7 +233,7 @@ TEST_F(RtsTest, TheOwnCtsSetsTheNav) {
     EXPECT_EQ(starts(*sniffer, FrameKind::broadcast), std::vector{rts_duration + us(1000) + difs});
 }
 
-// As the standard has it.
+// As in the standard.
 TEST_F(RtsTest, AFailedRtsIsRepeatedDifsAfterTheTimeoutIfOwnFramesSetNoNav) {
     MacConfig mac = with_rts_without_backoff();
     mac.own_frames_set_nav = false;
@@ -249,7 +248,7 @@ TEST_F(RtsTest, AFailedRtsIsRepeatedDifsAfterTheTimeoutIfOwnFramesSetNoNav) {
     EXPECT_EQ(starts(*sniffer, FrameKind::rts), expected);
 }
 
-// The attempts of a station whose peer permits some of them, and never acknowledges.
+// Attempts of a station whose peer permits some of them, and never acknowledges.
 class RtsRetries : public RtsTest {
 protected:
     static constexpr SimTime attempt = rts_duration + rts_field + difs;  // own NAV, no backoff
@@ -295,7 +294,7 @@ TEST_F(RtsRetries, TheNextMessageHasAllAttempts) {
     EXPECT_EQ(given_up(), 2U);
 }
 
-// Of each data frame that is sent, whether it says that it is sent again.
+// Retry flag of each data frame.
 class RetryFlags final : public MediumListener {
 public:
     Trajectory trajectory{Position{}};
@@ -324,8 +323,8 @@ TEST_F(RtsRetries, DataThatIsSentForTheFirstTimeAfterAFailedRtsIsNoRetry) {
     EXPECT_EQ(listener.flags, (std::vector{false, true}));
 }
 
-// Two stations that ask each other at the same time: the later one's RTS meets a station that waits
-// for a CTS.
+// Two stations that send RTS to each other at the same time: the later RTS meets a station that
+// waits for a CTS.
 TEST_F(RtsTest, AnRtsThatComesInsteadOfTheCtsIsAnsweredIfOwnFramesSetNoNav) {
     MacConfig mac = with_rts();
     mac.own_frames_set_nav = false;

@@ -1,6 +1,5 @@
-// The instants are computed by hand: support/dcf_instants.hpp. What happens without an ACK, RTS
-// and CTS, the NAV, rate control, the contention window and the check of a configuration have files
-// of their own.
+// The instants are computed by hand: support/dcf_instants.hpp. Missing ACKs, RTS and CTS, the NAV,
+// rate control, the contention window and the validation of a configuration have their own files.
 #include "netsim/mac/dcf.hpp"
 
 #include <algorithm>
@@ -202,7 +201,7 @@ TEST_F(DcfTest, IfIdleSkipsBackoffsAFrameStillWaitsForTheOneAfterTheFrameBefore)
     const SimTime first_end = difs + data_duration;
     a->send(broadcast_id, 100);
     air.at(first_end + difs + us(7), [&] { a->send(broadcast_id, 100); });
-    air.at(us(900'000), [&] { a->send(broadcast_id, 100); });  // when that is over, and the one after it
+    air.at(us(900'000), [&] { a->send(broadcast_id, 100); });  // after it, and the one after it
     air.run();
     const std::vector<SimTime> sent = starts(FrameKind::broadcast);
     ASSERT_EQ(sent.size(), 3U);
@@ -241,7 +240,7 @@ TEST_F(DcfTest, FramesOfOneInstantCollide) {
         c.send(broadcast_id, 100);
     });
     air.run();
-    EXPECT_TRUE(a->received.empty());  // a radio that transmits hears nothing
+    EXPECT_TRUE(a->received.empty());  // a radio that transmits does not receive
     EXPECT_TRUE(c.received.empty());
     EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(1000), us(1001)}));
 }

@@ -34,7 +34,7 @@ TEST(FrameFifo, FirstInFirstOut) {
     EXPECT_TRUE(queue.empty());
 }
 
-// Beside a plain queue, through all lengths and back.
+// Compared with a plain queue, for all lengths and back.
 TEST(FrameFifo, MatchesAPlainQueue) {
     FrameFifo queue;
     std::deque<std::uint32_t> plain;

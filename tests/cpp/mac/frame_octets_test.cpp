@@ -131,7 +131,7 @@ TEST(FrameOctets, TheChecksumsHoldForEveryLength) {
     }
 }
 
-// A checksum of 0 would say that there is none (RFC 768).
+// A checksum of 0 would mean that there is none (RFC 768).
 TEST(FrameOctets, AUdpChecksumOfZeroIsWrittenAsOnes) {
     EXPECT_EQ(part(octets_of(data_frame(1, 2, "e6")), 58, 2), (Octets{0xff, 0xff}));
 }

@@ -26,8 +26,8 @@ const ModeSet& modes() {
     return mode_set("a");
 }
 
-// What one attempt takes on a free channel in 802.11a, written out: DIFS 34 µs, 7.5 slots of 9 µs,
-// SIFS 16 µs.
+// Duration of one attempt on a free channel in 802.11a: DIFS 34 µs, 7.5 slots of 9 µs, SIFS
+// 16 µs.
 double attempt_us(std::size_t mode) {
     constexpr std::array<int, 8> data_us{1444, 968, 732, 496, 380, 260, 200, 180};
     constexpr std::array<int, 8> ack_us{44, 44, 32, 32, 28, 28, 28, 28};
@@ -44,8 +44,8 @@ std::size_t best_mode(const Shares& shares) {
     return best;
 }
 
-// A link on which a frame succeeds with the given chance of its rate. Frames follow each other
-// without a pause.
+// A link on which a frame succeeds with the given probability of its rate. Frames follow each
+// other without a pause.
 class LossyLink {
 public:
     LossyLink(std::uint64_t seed, double look_around)
@@ -95,7 +95,7 @@ private:
     RandomStream luck_;
 };
 
-// Rates up to one work, those above it hardly ever.
+// Rates up to one succeed, those above it hardly ever.
 Shares cliff_after(std::size_t last) {
     Shares shares{};
     for (std::size_t mode = 0; mode < shares.size(); ++mode) {
@@ -106,10 +106,10 @@ Shares cliff_after(std::size_t last) {
 
 class MinstrelCliff : public testing::TestWithParam<std::size_t> {};
 
-// Of 3000 attempts at least at a steady state, 10 % of frames try something else at one of their
-// attempts, which fails if it is too fast: with four standard deviations (2 %) to spare, 85 % of
-// all attempts are at the best rate. A wrong choice by chance would need several windows in which a
-// rate with 1 % success does nothing but succeed: below 1e-6 in total.
+// Of at least 3000 attempts in a steady state, 10 % of frames try another rate in one attempt,
+// which fails if the rate is too high. With four standard deviations (2 %) of margin, 85 % of all
+// attempts are at the best rate. A wrong choice needs several windows in which all attempts of a
+// rate with 1 % success succeed: below 1e-6 in total.
 TEST_P(MinstrelCliff, MostAttemptsAreAtTheRateWithTheBestThroughput) {
     const Shares shares = cliff_after(GetParam());
     ASSERT_EQ(best_mode(shares), GetParam());
@@ -123,7 +123,7 @@ TEST_P(MinstrelCliff, MostAttemptsAreAtTheRateWithTheBestThroughput) {
 INSTANTIATE_TEST_SUITE_P(Rates, MinstrelCliff, testing::Range<std::size_t>(0, 8),
                          [](const auto& test) { return std::to_string(test.param); });
 
-// Losses that grow with the rate, so that the second best is only some 10 % worse.
+// Losses that grow with the rate, so that the second best rate is only some 10 % worse.
 TEST(MinstrelRateControl, ThroughputIsCloseToThatOfTheBestRateWhereLossesGrowWithTheRate) {
     const Shares shares{1, 1, 0.99, 0.97, 0.9, 0.75, 0.4, 0.1};
     const double best_per_s = shares.at(best_mode(shares)) / attempt_us(best_mode(shares)) * 1e6;
@@ -165,7 +165,7 @@ TEST(MinstrelRateControl, WhereNothingSucceedsItIsTheSlowest) {
     EXPECT_EQ(link.send(Shares{}), std::vector<std::size_t>(limit, 0));
 }
 
-// Fifty attempts at each rate, with that share of successes, and an update after them.
+// Fifty attempts at each rate, with that ratio of successes, and an update after them.
 class LearnedLink {
 public:
     explicit LearnedLink(const Shares& shares, int bytes = psdu_bytes) : psdu_bytes_(bytes) {
@@ -204,7 +204,7 @@ std::vector<std::size_t> in_a_row(std::initializer_list<std::pair<int, std::size
     return attempts;
 }
 
-// 54 Mbps is best, 48 second, 9 Mbps the most likely, 6 the slowest.
+// 54 Mbps is the best rate, 48 the second, 9 Mbps the most reliable, 6 the slowest.
 TEST(MinstrelRateControl, TheAttemptsOfAFrameGoDownTheChain) {
     LearnedLink link({0.8, 0.9, 0.8, 0.8, 0.8, 0.8, 0.8, 0.8});
     EXPECT_EQ(link.chain(20), in_a_row({{5, 7}, {5, 6}, {4, 1}, {6, 0}}));
@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, MinstrelStage,
                                          std::pair{7U, 5}),
                          [](const auto& test) { return std::to_string(test.param.first); });
 
-// 54 Mbps never fails, 6 Mbps comes second.
+// 54 Mbps never fails, 6 Mbps is second.
 TEST(MinstrelRateControl, AtTheSlowestRateAStageHasThreeAttemptsOfAUsualFrame) {
     LearnedLink link({0.9, 0, 0, 0, 0, 0, 0, 1});
     EXPECT_EQ(link.chain(7), in_a_row({{2, 7}, {3, 0}, {2, 7}}));
@@ -245,8 +245,8 @@ TEST(MinstrelRateControl, OfARateThatAlwaysSucceedsTwoAttemptsAreEnough) {
     EXPECT_EQ(link.chain(9), in_a_row({{2, 7}, {5, 6}, {2, 7}}));
 }
 
-// The mean of 24 Mbps falls below 10 % in eight updates of 0.75 each, and still is the largest. All
-// others are unknown.
+// The mean of 24 Mbps falls below 10 % in eight updates by 0.75 each, and is still the largest.
+// All others are unknown.
 TEST(MinstrelRateControl, OfARateThatHardlyEverSucceedsTooAndOfUnknownOnes) {
     LossyLink link(1, 0);
     link.run(cliff_after(7), SimTime::from_seconds(1));
@@ -266,8 +266,8 @@ TEST(MinstrelRateControl, BesideTheSlowestRateAsTheBestOneThereIsASecondBest) {
     EXPECT_EQ(link.chain(7), in_a_row({{2, 0}, {4, 1}, {1, 0}}));
 }
 
-// 10000 frames, one in ten tries another of seven rates: 1000 ± 30; five standard deviations are
-// allowed, a false alarm in 2 million.
+// 10000 frames, one in ten tries another one of seven rates: 1000 ± 30. Five standard deviations
+// are allowed, a false alarm in 2 million.
 TEST(MinstrelRateControl, LooksAroundWithTheShareOfFramesThatItIsTold) {
     LossyLink link(3, 0.1);
     const Shares shares = cliff_after(0);
@@ -293,7 +293,7 @@ TEST(MinstrelRateControl, ASlowerRateIsTriedOnlyAfterTheBestOneFailed) {
     }
 }
 
-// 24 Mbps succeeds in two intervals, 54 Mbps is tried in the second one only.
+// 24 Mbps succeeds in two intervals, 54 Mbps is tried only in the second one.
 TEST(MinstrelRateControl, OfARateThatWasNeverTriedTheFirstShareCountsInFull) {
     MinstrelRateControl control(modes(), modes().fastest_mandatory(), {update_interval, 0, 0.75},
                                 RandomStream(1, 0, Purpose::rate_control));

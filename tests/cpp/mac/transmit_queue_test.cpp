@@ -101,7 +101,7 @@ TEST_F(TransmitQueueTest, HasRoomAgainWhenAWaitingFrameIsInProgress) {
     EXPECT_TRUE(add(8));
 }
 
-// Beside a plain queue, through all lengths and back.
+// Compared with a plain queue, for all lengths and back.
 TEST(TransmitQueue, MatchesAPlainQueueOfThatCapacity) {
     constexpr std::size_t most = 20;
     TransmitQueue queue(7, most);

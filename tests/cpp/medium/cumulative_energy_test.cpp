@@ -203,8 +203,8 @@ TEST_P(CumulativeEnergy, DoesNotMakeTheChannelFreeWhileAFrameIsReported) {
     EXPECT_FALSE(watcher.was_told_it_is_free());
 }
 
-// So near that they arrive without delay, although no two are in the same place, and too weak to be
-// noticed anywhere.
+// So near that they arrive without delay, although no two are at the same place, and too weak to
+// be detected anywhere.
 TEST_P(CumulativeEnergy, OfManyIsDetectedAtTheInstantOfSending) {
     RadioConfig config = test::radio_of_power(1.8e-11);
     config.sensitivity_w = 1e-9;
@@ -234,7 +234,7 @@ protected:
         config.energy_detection_w = 1e-10;
         station = &air.add_station({0, 0, 0}, MacConfig(), config);
     }
-    // One does not suffice, three do.
+    // One is not enough, three are.
     void weak_frame(double from_light_us, SimTime start) {
         const double from_m = from_light_us * light_microsecond_m;
         BareRadio& sender =
@@ -296,7 +296,7 @@ TEST(EnergyWithTheLowestThreshold, IsDetected) {
     EXPECT_EQ(receiver.log.times_of(RadioWord::free), std::vector{us(122)});
 }
 
-// With hardly any path loss except at the sender's place, a node that leaves it flies along the
+// With almost no path loss except at the sender's place, a node that leaves it flies along the
 // border of detection.
 TEST(EnergyAtAZoneBorder, IsDetectedByANodeFlyingAlongIt) {
     MediumConfig config;

@@ -46,7 +46,7 @@ struct Worst {
 };
 
 // The definition, without a search: sums at every start. A node is an interferer if the others that
-// are at least as strong do not outweigh the rest without it.
+// are at least as strong do not exceed the rest without it.
 Worst plain_worst(const Frames& frames, SimTime start, SimTime end) {
     Worst worst;
     SimTime when;
@@ -100,7 +100,7 @@ TEST(Interference, StepsFollowStartsAndEnds) {
     sum.begin(us(10), us(20));
     sum.add(frames.add(1, us(0), us(15), 1));
     sum.add(frames.add(2, us(12), us(40), 2));
-    sum.add(frames.add(3, us(15), us(16), 1));  // as another one of that power ends: no step
+    sum.add(frames.add(3, us(15), us(16), 1));  // another one of that power ends at this time: no step
     EXPECT_EQ(sum.steps(), (std::vector<InterferenceStep>{{us(10), 1}, {us(12), 3}, {us(16), 2}}));
 }
 
@@ -113,7 +113,7 @@ TEST(Interference, KeepsAWeakFrameNextToAStrongOne) {
     EXPECT_EQ(sum.steps().back(), (InterferenceStep{us(10), 1e-25}));
 }
 
-// Interferers 1, 2, … of those powers, all on the air at once.
+// Interferers 1, 2, … with those powers, all on the air at the same time.
 std::vector<NodeId> named_of(const std::vector<double>& powers_w) {
     InterferenceSum sum;
     Frames frames;

@@ -126,7 +126,7 @@ TEST_F(LinksTest, TheAddresseeIsTheInterfaceThatCanDecodeIt) {
     EXPECT_EQ(addressee_of_frame_to(1), second);
     EXPECT_EQ(addressee_of_frame_to(2), -1);  // on another channel
     EXPECT_EQ(addressee_of_frame_to(0), -1);  // the sender itself
-    EXPECT_EQ(addressee_of_frame_to(3), -1);  // nobody
+    EXPECT_EQ(addressee_of_frame_to(3), -1);  // not to any node
     EXPECT_EQ(addressee_of_frame_to(broadcast_id), -1);
 }
 

@@ -13,7 +13,7 @@ SimTime s(double seconds) {
     return SimTime::from_seconds(seconds);
 }
 
-// Where its nose points to.
+// Direction of its nose.
 void expect_nose(const Attitude& attitude, const Trajectory& trajectory, double time_s,
                  const Position& expected) {
     const Position nose = attitude.at(trajectory, s(time_s)).to_scene({1, 0, 0});

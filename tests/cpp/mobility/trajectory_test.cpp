@@ -66,7 +66,7 @@ TEST(Trajectory, OfCommandsInOneInstantTheLastCounts) {
 TEST(Trajectory, RemembersWhereItWasWithinItsMemory) {
     Trajectory trajectory({0, 0, 0});
     trajectory.go_to(s(0), {1000, 0, 0}, 10);
-    for (int change = 1; change <= 100; ++change) {  // every 50 ms, to and fro across the line
+    for (int change = 1; change <= 100; ++change) {  // every 50 ms, back and forth across the line
         trajectory.go_to(s(10 + 0.05 * change), {1000, change % 2 == 0 ? 1000.0 : -1000.0, 0}, 10);
     }
     const SimTime newest = s(15);

@@ -24,7 +24,7 @@ NodeConfig node(std::string_view interface_type = ieee80211_interface) {
     return config;
 }
 
-// `parameter`: m, K in dB or σ in dB, whatever the model has.
+// `parameter`: m, K in dB or σ in dB, depending on the model.
 MediumConfig medium_of(const std::string& path_loss, double parameter = 0) {
     MediumConfig medium;
     medium.path_loss = path_loss;
@@ -38,7 +38,7 @@ LinkBudget budget_of(const NodeConfig& config, const MediumConfig& medium = Medi
     return {medium, config, config, payload_bytes};
 }
 
-// Of `count` broadcasts over `range_m` in a run of the engine.
+// Out of `count` broadcasts over `range_m` in a run of the engine.
 double ratio_in_a_run(const MediumConfig& medium, NodeConfig config, double range_m, int count) {
     Network network(medium, 1);
     test::Recorder& sender = test::add_recorder(network, config);
@@ -119,8 +119,8 @@ TEST(LinkBudget, WhereALimitDecidesTheShareIsTheChanceOfTheFading) {
     }
 }
 
-// Over the amplitude of a link, whose square is the gain, from its density and the chances without
-// fading.
+// Over the amplitude of a link, whose square is the gain, from its density and the probabilities
+// without fading.
 double plain_mean(const LinkBudget& without_fading, const std::function<double(double)>& density,
                   double range_m, double power_w) {
     constexpr double step = 0.002;  // of the natural logarithm
@@ -137,7 +137,7 @@ double plain_mean(const LinkBudget& without_fading, const std::function<double(d
     return sum;
 }
 
-// Sources: those of fading.hpp.
+// Sources: as in fading.hpp.
 std::function<double(double)> nakagami_density(double shape) {
     return [shape](double amplitude) {
         return 2 * std::exp(shape * std::log(shape) - std::lgamma(shape) +
@@ -240,7 +240,7 @@ TEST_P(LinkBudgets, ForetellWhatARunShows) {
     const bool narrowband = GetParam().interface_type == ieee802154_interface;
     MediumConfig medium{std::string(narrowband ? ieee802154_scalar_medium : ieee80211_scalar_medium)};
     medium.path_loss = GetParam().path_loss;
-    medium.coherence_time_s = 0;  // each frame meets another state of the link
+    medium.coherence_time_s = 0;  // each frame sees another state of the link
     NodeConfig config = node(GetParam().interface_type);
     config.initial_position.z = 10;
     config.wlan[0].radio.sensitivity_w = 1e-20;  // noise decides

@@ -1,5 +1,4 @@
-// How long messages take, from the command that sends them to the protocol that gets them:
-// Network::message_delays.
+// Delays of messages from the send command to the receiving protocol: Network::message_delays.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -78,8 +77,8 @@ TEST_F(DelaysOnAFreeChannel, WaitingInTheQueueIsPartOfIt) {
     EXPECT_EQ(of(MessageKind::unicast).max(), first + sifs + ack_duration + flight + difs + first);
 }
 
-// Five nodes in contention that write into their messages when they send them: what receivers make
-// of that is what is booked, with retries and duplicates, on each medium.
+// Five nodes in contention write the sending time into their messages. The delays at receivers are
+// the recorded ones, with retries and duplicates, on each medium.
 class DelaysInContention : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(DelaysInContention, AreWhatReceiversMeasure) {

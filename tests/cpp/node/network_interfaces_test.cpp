@@ -86,7 +86,7 @@ TEST(Network, ANodeWithTwoInterfacesHearsBothChannelsAndSendsOnTheOneItIsTold) {
     EXPECT_EQ(network.message_fates().counts(
                   MessageKind::unicast)[static_cast<std::size_t>(MessageFate::acknowledged)],
               2U);
-    // The sender's other interface has no part in it.
+    // The sender's other interface is not involved.
     EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 2U);
 }
 

@@ -1,4 +1,4 @@
-// What holds of every network: fates balance, and runs are repeatable.
+// Invariants of every network: outcomes balance, and runs are repeatable.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -25,7 +25,7 @@ SimTime s(double seconds) {
     return SimTime::from_seconds(seconds);
 }
 
-// Long after the last message was handed over: nothing is on the air or in a queue.
+// Long after the last message: nothing is on the air or in a queue.
 SimTime long_after(const RandomScenario& scenario) {
     return scenario.talk.until + s(60);
 }
@@ -61,7 +61,7 @@ protected:
         }
         expect_balance(network.message_fates(), census);
     }
-    // Of one interface, or of all.
+    // For one interface, or for all.
     static void expect_balance(const auto& message_fates, std::uint64_t census) {
         std::uint64_t queued = 0;
         for (const MessageKind kind : both_message_kinds) {
@@ -71,7 +71,7 @@ protected:
         }
         EXPECT_EQ(queued, census);
     }
-    // Each message is in the ledger of an interface of the node that it came from, once.
+    // Each message is counted once, at an interface of its source node.
     static void expect_all_messages_accepted(Network& network) {
         for (NodeId id = 0; id < network.node_count(); ++id) {
             std::uint64_t accepted = 0;
@@ -83,7 +83,7 @@ protected:
             EXPECT_EQ(accepted, dynamic_cast<const Talker&>(*network.node(id).protocol()).sent());
         }
     }
-    // Fates at the receivers, without those that are kept only in sum.
+    // Outcomes at the receivers, without those that are only kept as sums.
     static void expect_nodes_add_up(const Network& network) {
         for (const FrameKind kind : all_frame_kinds) {
             FrameFates::Counts sums{};
@@ -178,7 +178,7 @@ TEST(Fingerprints, OfOneSeedAreEqual) {
 TEST(Fingerprints, OfAnotherSeedAreOther) {
     RandomScenario scenario = test::make_random_scenario(5);
     const std::uint64_t fingerprint = fingerprint_of(scenario);
-    ++scenario.seed;  // of the network; what the protocols do stays the same
+    ++scenario.seed;  // the seed of the network; the protocols behave in the same way
     EXPECT_NE(fingerprint_of(scenario), fingerprint);
 }
 
@@ -207,7 +207,7 @@ TEST(Fingerprints, OfTwoNetworksThatRunInterleavedAreThoseOfEachAlone) {
     }
 }
 
-// A node far away from all others draws from streams of its own, and so changes nothing for them.
+// A distant node draws from its own streams, and does not affect others.
 TEST(Fingerprints, AFurtherNodeLeavesTheDrawsOfTheOthersUnchanged) {
     for (std::uint64_t seed = 20; seed < 30; ++seed) {
         const RandomScenario scenario = test::make_random_scenario(seed);

@@ -59,7 +59,7 @@ TEST(Network, ChecksItsConfigurations) {
 TEST(Network, ARefusedNodeLeavesNoTrace) {
     Network network(MediumConfig(), 1);
     NodeConfig wrong = silent_node();
-    wrong.wlan[0].mac.bitrate_bps = 7e6;  // found out only when the layers are built
+    wrong.wlan[0].mac.bitrate_bps = 7e6;  // detected only when the layers are built
     EXPECT_THROW(network.add_node(wrong), ConfigError);
     EXPECT_EQ(network.node_count(), 0);
     Recorder& sender = test::add_recorder(network, silent_node());

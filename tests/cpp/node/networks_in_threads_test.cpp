@@ -1,6 +1,5 @@
-// Networks share nothing: several may run at the same time, each in a thread of its own. Under
-// ThreadSanitizer (`make test-threads`) this also finds what they share without an effect on the
-// result.
+// Networks share nothing: several may run at the same time, each in its own thread. ThreadSanitizer
+// (`make test-threads`) also finds shared state without an effect on the result.
 #include <cstdint>
 #include <thread>
 #include <vector>

@@ -1,4 +1,4 @@
-// Networks whose stations are of several operation modes: what one has not is noise to it.
+// Networks whose stations have different operation modes: frames in unsupported modes are noise.
 #include <map>
 #include <string>
 #include <vector>
@@ -76,7 +76,7 @@ TEST(Network, AFrameThatAStationCannotDecodeMakesItsChannelBusy) {
     Recorder& first = test::add_recorder(network, station("g(erp)", {}, 6e6));
     Recorder& second = test::add_recorder(network, station("b", {10, 0, 0}));
     Recorder& receiver = test::add_recorder(network, station("g(mixed)", {20, 0, 0}));
-    // 2 ms of frame, and while it lasts, another station wants to send.
+    // The frame takes 2 ms, during which another station wants to send.
     first.on_initialize = [](Recorder& self) { self.broadcast(std::string(1400, '1')); };
     second.on_initialize = [](Recorder& self) { self.node.schedule_timer("send", SimTime::from_us(1000)); };
     second.on_timer = [](Recorder& self, const std::string&) { self.broadcast("2"); };
@@ -86,8 +86,7 @@ TEST(Network, AFrameThatAStationCannotDecodeMakesItsChannelBusy) {
 
 TEST(Network, AFrameThatAStationCannotDecodeDisturbsWhatItReceives) {
     Network network(MediumConfig(), 1);
-    // Too weak to be heard by the sender, 300 m away, and ten times as strong as its frame at the
-    // receiver.
+    // Too weak for the sender, 300 m away, and ten times as strong as its frame at the receiver.
     NodeConfig hidden = station("g(erp)", {10, 0, 0}, 6e6);
     hidden.wlan[0].radio.tx_power_w = 1e-4;
     Recorder& disturber = test::add_recorder(network, hidden);

@@ -22,7 +22,7 @@ TEST(PayloadHash, DependsOnTheTextAlone) {
 
 TEST(PayloadHash, DoesNotTakeANewTextForTheOneThatLayInItsPlace) {
     PayloadHash hash;
-    for (int i = 0; i < 100; ++i) {  // each is gone, but for the hash, before the next one is made
+    for (int i = 0; i < 100; ++i) {  // each is freed, except for its hash, before the next one is made
         const std::string text = std::to_string(i);
         EXPECT_EQ(hash.of(payload(text)), PayloadHash().of(payload(text)));
     }

@@ -46,7 +46,7 @@ std::vector<Captured> packets(const TemporaryFile& file) {
     return result;
 }
 
-// Two nodes that light needs 0.1 µs between.
+// Two nodes, 0.1 light microseconds apart.
 class RadioCaptureTest : public testing::Test {
 protected:
     static NodeConfig at(double x) {

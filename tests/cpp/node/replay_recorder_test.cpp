@@ -37,7 +37,7 @@ std::vector<Value> values(const ReplayChunk& chunk, const std::string& table, co
     return {};
 }
 
-// {(receiver, fate): receptions}, from the changes.
+// {(receiver, outcome): receptions}, from the changes.
 using Counts = std::map<std::tuple<std::uint32_t, int>, std::uint64_t>;
 
 Counts counts_of(const std::vector<ReplayChunk>& chunks) {
@@ -118,7 +118,7 @@ TEST(ReplayRecorder, AMovingNodeInAChunkThatBeginsOnItsWay) {
     recorder.finish();
     const std::vector<ReplayChunk> chunks = recorder.take();
     ASSERT_EQ(chunks.size(), 2U);
-    // The leg that it is on, and the one that the command began.
+    // The current leg, and the one that the command started.
     EXPECT_EQ(values<std::uint64_t>(chunks[1], "legs", "time_ns"),
               (std::vector<std::uint64_t>{61'000'000'000, 61'000'000'000}));
     EXPECT_EQ(values<double>(chunks[1], "legs", "x1").back(), 100);

@@ -1,4 +1,4 @@
-// Expected numbers were computed from the formulas with other means (Python), not with this code.
+// Expected numbers were computed from the formulas independently (Python), not with this code.
 #include "netsim/phy/antenna.hpp"
 
 #include <cmath>
@@ -40,12 +40,12 @@ double gain_db(const AntennaPattern& pattern, const Position& direction) {
     return db_from_ratio(pattern.gain(direction));
 }
 
-// In the plane of x and y.
+// In the x-y plane.
 Position at_angle(double degrees) {
     return {std::cos(degrees * pi / 180), std::sin(degrees * pi / 180), 0};
 }
 
-// Over all directions; the midpoint rule in the angle from z and around it.
+// Over all directions; midpoint rule in the angle from z and around it.
 double mean_gain(const AntennaPattern& pattern) {
     constexpr int steps = 600;
     double sum = 0;

@@ -19,7 +19,7 @@ const Mode& mode(double mbps) {
     return mode_set("g(mixed)").mode_for_bitrate(mbps * 1e6);
 }
 
-// A model of what is written in a file.
+// A model from the content of a file.
 BerTableErrorModel model_of(const std::string& text) {
     const test::TemporaryFile file;
     std::ofstream(file.path()) << text;
@@ -75,7 +75,7 @@ TEST(BerTable, CommentsEmptyLinesAndTheEndsOfLinesOfWindowsAreNoMatter) {
     EXPECT_NEAR(data_success(model, 24, 10, 100), 0.2, 1e-12);
 }
 
-// What is said about a file, without its name.
+// The error message about a file, without its name.
 std::string refusal_of(const std::string& text) {
     const test::TemporaryFile file;
     std::ofstream(file.path()) << text;

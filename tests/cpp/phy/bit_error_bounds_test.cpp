@@ -13,7 +13,7 @@ double rate_at(double snir) {
     return 0.5 * std::exp(-snir);
 }
 
-// In rising order, from 1e-3 to 1.3e6.
+// In increasing order, from 1e-3 to 1.3e6.
 std::vector<double> ratios() {
     std::vector<double> all;
     for (int step = 0; step < 30'000; ++step) {

@@ -1,6 +1,6 @@
-// Expected numbers come from outside this code: from the formulas at the top of error_rate.hpp
-// evaluated with 50 digits (mpmath: erfc, sqrt, exp, and the weight spectra as written there), from
-// ns-3 3.44 and from INET 4.5.
+// Expected numbers are independent of this code. They come from the formulas at the top of
+// error_rate.hpp evaluated with 50 digits (mpmath: erfc, sqrt, exp, and the weight spectra as
+// written there), from ns-3 3.44 and from INET 4.5.
 #include "netsim/phy/error_rate.hpp"
 
 #include <algorithm>
@@ -94,7 +94,7 @@ TEST(NistErrorModel, CckSuccessIsThatOfTheFits) {
 }
 
 // A row of ns-3's table: the success of 8 · bytes bits in the frame's mode. A frame adds header,
-// service field, tail and padding, which the tests leave out.
+// service field, tail and padding, which the tests omit.
 struct Chunk {
     std::string mode;
     int psdu_bytes = 0;
@@ -106,7 +106,7 @@ std::vector<Chunk> chunks_of_ns3() {
     std::ifstream file(NETSIM_REFERENCE_FOLDER "/ns3_error_model.csv");
     std::vector<Chunk> chunks;
     std::string line;
-    std::getline(file, line);  // what the columns are
+    std::getline(file, line);  // the header
     while (std::getline(file, line)) {
         std::replace(line.begin(), line.end(), ',', ' ');
         std::istringstream cells(line);
@@ -118,8 +118,8 @@ std::vector<Chunk> chunks_of_ns3() {
     return chunks;
 }
 
-// At 1 Mbps ns-3 takes bandwidth over bitrate, 22, where we take 2 times the SNIR: its curve, 10.41
-// dB to the right, is ours.
+// At 1 Mbps ns-3 uses bandwidth over bitrate, 22; we use 2 times the SNIR: its curve, shifted by
+// 10.41 dB to the right, is ours.
 TEST(NistErrorModel, BitErrorsAreThoseOfNs3) {
     struct Column {
         double mbps;
@@ -190,7 +190,7 @@ TEST(NistErrorModel, BitErrorsAreAtMostOneAndFallWithTheSnir) {
     }
 }
 
-// The modes for which there is a bound.
+// Modes with a bound.
 std::vector<Mode> bounded_modes() {
     std::vector<Mode> modes;
     for (const Mode& each : mode_set("g(mixed)").modes()) {
@@ -233,7 +233,7 @@ TEST(NistErrorModel, SuccessIsNeverAboveItsBoundAtThatSnirOrASmallerOne) {
     }
 }
 
-// Where 1000 bytes fail once in a thousand times, the bound knows that they succeed 99 times in
+// Where 1000 bytes fail once in a thousand times, the bound gives at least 99 successes in
 // 100.
 TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
     for (const Mode& each : bounded_modes()) {
@@ -245,7 +245,7 @@ TEST(NistErrorModel, TheBoundIsCloseWhereNearlyAllSucceeds) {
     }
 }
 
-// Where one frame in a hundred succeeds, the bound knows that less than one in five does.
+// Where one frame in a hundred succeeds, the bound gives less than one in five.
 TEST(NistErrorModel, TheBoundFromAboveIsCloseWhereNearlyAllFails) {
     for (const Mode& each : bounded_modes()) {
         double snir = 1000;
@@ -269,8 +269,8 @@ TEST(NistErrorModel, TheBoundSaysWhatIsCertain) {
     }
 }
 
-// Above some SNIR the model stops computing: there the longest frame succeeds to the last digit
-// already. The SNIR are 0.9 of those at which it stops.
+// Above some SNIR the model stops computing: there the longest frame succeeds to the last digit.
+// The SNIR values are 0.9 of the limits.
 TEST(NistErrorModel, ShortCutForStrongSignalsChangesNoDigit) {
     for (const auto& [mbps, snir] :
          {std::pair{6.0, 13 * 0.9}, std::pair{9.0, 24 * 0.9}, std::pair{12.0, 26 * 0.9},
@@ -291,7 +291,7 @@ TEST(NistErrorModel, LongerFramesFailMoreOften) {
     }
 }
 
-// Without data bits of its own, a frame still has a header to lose.
+// Without data bits, a frame still has a header to lose.
 TEST(NistErrorModel, HeaderAloneCanFailAFrame) {
     const double header = std::pow(1 - NistErrorModel::bit_error_rate(mode(1), 1), 48);
     EXPECT_LT(header, 0.1);
@@ -301,7 +301,7 @@ TEST(NistErrorModel, HeaderAloneCanFailAFrame) {
 TEST(ErrorModel, EveryNameIsAModelOfItsOwn) {
     std::map<const ErrorModel*, std::string_view> names;
     for (const std::string_view name : error_model_names) {
-        if (name != ber_table_error_model) {  // not without its file
+        if (name != ber_table_error_model) {  // it needs a file
             const auto [other, is_new] = names.try_emplace(&error_model(name), name);
             EXPECT_TRUE(is_new) << name << " is the same as " << other->second;
         }

@@ -103,8 +103,8 @@ TEST(ModeSet, TableHasAllNamesOfTheConfiguration) {
     }
 }
 
-// Of two sets, one knows the formats of a mode of the other only if it has that mode itself: what a
-// station can decode follows from the formats.
+// A station knows the formats of a mode of another set only if it has that mode: the formats
+// determine what it can decode.
 TEST(ModeSet, KnowsTheFormatsOfItsOwnModesOnly) {
     for (const std::string_view one : op_mode_names) {
         for (const std::string_view other : op_mode_names) {
@@ -214,7 +214,7 @@ TEST(ModeSet, ResponseIsMandatoryAndNoFasterThanTheFrame) {
     EXPECT_EQ(response_mbps("b", 11), 11);
 }
 
-// A station of set a hears a frame slower than all that it must be able to send.
+// A station of set a receives a frame slower than all mandatory rates.
 TEST(ModeSet, ResponseFallsBackToTheSlowestMandatoryMode) {
     EXPECT_EQ(mode_set("a").response_mode(mode_set("b").mode_for_bitrate(1e6)).bitrate_bps, 6'000'000);
 }

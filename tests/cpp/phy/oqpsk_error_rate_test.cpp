@@ -37,7 +37,7 @@ TEST(OqpskErrorModel, BitErrorsAndSuccessAreThoseOfTheFormula) {
              Point{3.0, 3.7422718396774598e-13, 0.99999999993413602, 0.9999999996137976},
              Point{3.9, 4.6192411718100652e-17, 0.9999999999999919, 0.99999999999995237},
          }) {
-        // The sum is of terms up to 13000 with changing signs, and the success a thousand-fold
+        // The sum has terms up to 13000 with changing signs, and the success is a thousand-fold
         // product.
         EXPECT_NEAR(OqpskErrorModel::bit_error_rate(point.snir) / point.bit_error, 1, 1e-12) << point.snir;
         EXPECT_NEAR(success(point.snir, 20) / point.success_20_bytes, 1, 1e-10) << point.snir;
@@ -45,9 +45,9 @@ TEST(OqpskErrorModel, BitErrorsAndSuccessAreThoseOfTheFormula) {
     }
 }
 
-// IEEE Std 802.15.4-2006, 6.1.7 and 6.5.3.3: a packet of 20 octets gets lost with less than 1 % at
-// sensitivity. The standard's own curve (figure E.2) has bit errors of 1e-9 at about 4 dB less than
-// the 8 dB of plain QPSK.
+// IEEE Std 802.15.4-2006, 6.1.7 and 6.5.3.3: less than 1 % of packets of 20 octets are lost at
+// the sensitivity. The standard's own curve (figure E.2) has bit errors of 1e-9 at about 4 dB less
+// than the 8 dB of plain QPSK.
 TEST(OqpskErrorModel, AtTwoDecibelsNearlyEveryPacketOf20BytesIsReceived) {
     EXPECT_GT(success(ratio_from_db(2), 20), 0.99);
     EXPECT_LT(success(ratio_from_db(-3), 20), 0.1);

@@ -80,7 +80,7 @@ TEST(PresentArrivals, LetTheRadioLockOnToALaterOne) {
     EXPECT_EQ(present.locked(), &sent[1]);
 }
 
-// Random beginnings and ends against a vector.
+// Random starts and ends, compared with a vector.
 class PresentArrivalsOracle : public testing::TestWithParam<unsigned> {};
 
 TEST_P(PresentArrivalsOracle, AgreeWithAVector) {

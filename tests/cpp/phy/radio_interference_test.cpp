@@ -1,4 +1,4 @@
-// What overlaps with a frame that the radio is locked on to: when it counts, and who is to blame.
+// Frames that overlap with a locked frame: when they count, and which nodes are interferers.
 #include <map>
 #include <vector>
 
@@ -15,7 +15,7 @@ using test::sensitivity_w;
 using test::strong_w;
 using test::us;
 
-// A signal of which one interferer leaves an SNIR of 5, and two at once 2.5, which is below the
+// A signal with an SNIR of 5 for one interferer and of 2.5 for two, which is below the
 // threshold.
 class PartialOverlap : public test::RadioAmongSenders {
 protected:

@@ -19,8 +19,8 @@ using test::us;
 
 constexpr double strong_w = 1e-10;
 
-// A receiver whose frames come from a microsecond away; its channel is busy by energy only far
-// above them.
+// A receiver whose frames come from a microsecond away; only energy far above them makes its
+// channel busy.
 class RadioOptions : public testing::Test {
 protected:
     RadioOptions() { config.energy_detection_w = 1; }
@@ -31,7 +31,7 @@ protected:
         }
         return *receiver_;
     }
-    // A frame of a sender of its own is at the receiver from `start` for `duration`.
+    // A frame of a separate sender is at the receiver from `start` for `duration`.
     NodeId arrives(double received_w, SimTime start, SimTime duration = us(200)) {
         receiver();
         constexpr Position directions[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
@@ -129,13 +129,13 @@ TEST_F(RadioWithPreambleDetection, WhatIsStillListenedToAtADetectionIsLost) {
     EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
 }
 
-// The SNIR that counts is that at the end of the detection.
+// The SNIR at the end of the detection counts.
 TEST_F(RadioWithPreambleDetection, WhatEndsDuringItDoesNoHarm) {
     config.sensitivity_w = 2 * strong_w;
     arrives(3 * strong_w, us(100));
     arrives(1.9 * strong_w, us(50), us(52));
     air.run();
-    EXPECT_EQ(count(FrameFate::interference), 1U);  // detected, and lost only then
+    EXPECT_EQ(count(FrameFate::interference), 1U);  // detected, and lost afterwards
 }
 
 TEST_F(RadioWithPreambleDetection, AFrameShorterThanTheDetectionIsUndetected) {
@@ -219,7 +219,7 @@ TEST_F(RadioWithChunks, InterferenceWithTheDataIsBlamed) {
     EXPECT_EQ(air.frame_fates.interferers_at(receiver().id()), (std::map<NodeId, std::uint64_t>{{other, 1}}));
 }
 
-// Interference during the header alone, so strong that about half of the headers survive it.
+// Interference only during the header, so strong that about half of the headers survive it.
 TEST_F(RadioWithChunks, AHeaderThatSurvivedIsNotDecidedAgain) {
     constexpr unsigned frames = 200;
     config.snir_threshold = 0;

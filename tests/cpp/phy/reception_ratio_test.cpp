@@ -1,4 +1,4 @@
-// Over distance, the share of frames that a radio decodes is what the error model says for the SNR
+// Over distance, the ratio of frames that a radio decodes follows from the error model for the SNR
 // there.
 //
 // Each count lies within the interval in which a binomial count lies 99.9 % of the time. Seeds are
@@ -21,8 +21,8 @@ using test::BareRadio;
 constexpr int frames = 2000;
 constexpr int psdu_bytes = 164;
 
-// Counts within which a binomial count of `trials` with chance `p` lies with 99.9 %, by summing its
-// distribution.
+// Interval that contains a binomial count of `trials` with probability `p` in 99.9 % of cases, by
+// summing its distribution.
 std::pair<int, int> binomial_interval(int trials, double p) {
     constexpr double tail = 0.0005;
     double at_most = 0;
@@ -63,7 +63,7 @@ protected:
     double success_at(double distance_m) const {
         return NistErrorModel().success_probability(mode, snr_at(distance_m), psdu_bytes);
     }
-    // The distance at which the chance of success falls to `probability`.
+    // Distance at which the probability of success falls to `probability`.
     double distance_of(double probability) const {
         double near = 1;
         double far = 1e6;

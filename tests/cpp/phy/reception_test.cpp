@@ -63,7 +63,7 @@ TEST(Reception, BelowTheThresholdTheLeastSuccessIsNone) {
     EXPECT_EQ(model(50).min_success(frame.arrival, noise_w), 0);
 }
 
-// Also where its success is worked out from bounds, as of all but CCK, or is none, or is certain.
+// Also if bounds determine its success, as for all but CCK, or if it is impossible or certain.
 TEST(Reception, SurvivesWhatItsDrawIsBelow) {
     RandomStream draws(1, 2, Purpose{1});
     for (const double bitrate_bps : {2e6, 11e6, 6e6, 24e6, 54e6}) {
@@ -101,8 +101,8 @@ TEST(Reception, PartsAreNeverBeyondTheEndOfTheFrame) {
     EXPECT_EQ(period_of(FramePart::data, frame.arrival).end, us(1018));
 }
 
-// The law of chunks: with the same noise everywhere, header and data together are the closed form
-// of mode "min".
+// Invariant of chunks: with constant noise, header and data together give the closed form of mode
+// "min".
 TEST(Reception, UnderEvenNoiseChunksAreTheClosedForm) {
     RandomStream draws(1, 0, Purpose{1003});
     const auto modes = mode_set("g(mixed)").modes();

@@ -7,7 +7,7 @@
 namespace netsim {
 namespace {
 
-// Ten times as much along its x axis, a tenth in the opposite half.
+// Ten times the gain along its x axis, a tenth in the opposite half.
 class Beam final : public AntennaPattern {
 public:
     double gain(const Position& direction) const override { return direction.x > 0 ? 10 : 0.1; }

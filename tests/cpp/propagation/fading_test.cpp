@@ -79,7 +79,7 @@ TEST(Fading, MeanPowerIsUnchanged) {
     }
 }
 
-// Whether a link is looked at closely must not show in any result.
+// Computing a link with more or less precision must not affect results.
 TEST(Fading, WhereALeastGainIsGivenEitherItIsTheSameOrThereIsLess) {
     MediumConfig config;
     config.k_db = 3;
@@ -222,7 +222,7 @@ TEST(Fading, GainsAreDrawnWithTheChancesThatItTells) {
         std::ranges::sort(gains, std::greater());
         double farthest = 0;
         for (int i = 0; i < draws; ++i) {
-            const double share = (i + 0.5) / draws;  // has at least that gain
+            const double share = (i + 0.5) / draws;  // probability of at least that gain
             farthest =
                 std::max(farthest, std::abs(share - fading.chance_of(gains[static_cast<std::size_t>(i)])));
         }

@@ -11,10 +11,10 @@ double rayleigh(double from_0) {
     return from_0 * from_0 / 2;
 }
 
-// What Rayleigh's gains do: a gain of g comes with the chance exp(−g).
+// As for Rayleigh's gains: a gain above g has the probability exp(−g).
 TEST(GainTailBound, MatchesTheDistanceFromZero) {
     const GainTailBound rare(rayleigh, 6);
-    for (const double gain : {0.125, 1.0, 1.25, 1.5, 4.0, 16.0}) {  // where steps begin
+    for (const double gain : {0.125, 1.0, 1.25, 1.5, 4.0, 16.0}) {  // starts of steps
         EXPECT_NEAR(rare.chance_beyond(gain), std::exp(-gain), 1e-8 * std::exp(-gain)) << gain;
     }
 }

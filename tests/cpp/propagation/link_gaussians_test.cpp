@@ -66,7 +66,7 @@ TEST(LinkGaussians, WhatIsNotWorkedOutLiesWithinTheGivenDistance) {
                     ASSERT_LE(std::hypot(pair.first, pair.second), distance);
                 }
             }
-            // Two pairs: one minus the chance that the sum of their squares is more.
+            // Two pairs: one minus the probability that the sum of their squares is larger.
             const double expected =
                 coherence == SimTime() ? 1 - chance : 1 - chance * (1 + distance * distance / 2);
             EXPECT_NEAR(nothing / 2000.0, expected, 0.045) << distance;  // four standard errors

@@ -74,7 +74,7 @@ TEST(BreakpointPathLoss, NeverAmplifies) {
     EXPECT_EQ(breakpoint().gain(0.001, channel_1_hz), 1);
 }
 
-// The two figures by which users know this medium.
+// The two characteristic values of this medium.
 TEST(BreakpointPathLoss, TwentyMilliwattsReachAbout126MetresAtMinus85Dbm) {
     const double sensitivity_w = w_from_dbm(-85);
     EXPECT_NEAR(breakpoint().reach_m(sensitivity_w / 0.02, channel_1_hz), 126, 0.5);
@@ -114,7 +114,7 @@ TEST(PathLoss, ReachStopsAtAStepUpOfTheLoss) {
     EXPECT_DOUBLE_EQ(breakpoint().reach_m(ratio_from_db(-58.4), channel_1_hz), 8);
 }
 
-// Where the loss steps down at the breakpoint, what lies beyond it counts.
+// If the loss steps down at the breakpoint, the part beyond it counts.
 TEST(PathLoss, ReachLooksBeyondAStepDownOfTheLoss) {
     MediumConfig config("Ieee802154NarrowbandScalarRadioMedium");
     config.l02_db = 50;

@@ -26,8 +26,8 @@ Transmission sent_from(const Position& origin, NodeId sender = 0, SimTime start 
     return sent;
 }
 
-// Each path loss with drawn parameters, over drawn positions, near and far, up to a scene's
-// diagonal.
+// Each path loss with random parameters, over random positions, near and far, up to the diagonal of
+// a scene.
 class EveryPathLoss : public testing::TestWithParam<std::string_view> {
 protected:
     EveryPathLoss() { config.path_loss = GetParam(); }
@@ -96,7 +96,7 @@ TEST_P(EveryPathLoss, NothingReachesForEverButNothing) {
 INSTANTIATE_TEST_SUITE_P(Names, EveryPathLoss, testing::ValuesIn(path_loss_names),
                          [](const auto& name) { return std::string(name.param); });
 
-// What nobody tells apart would be free space, without a word.
+// A model that is not in the table would silently be free space.
 TEST(Propagation, EveryNameIsAModelOfItsOwn) {
     MediumConfig config;
     config.shape_factor = 2;

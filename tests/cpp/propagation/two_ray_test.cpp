@@ -53,7 +53,7 @@ TEST(TwoRayInterference, WithoutAGroundIsFreeSpace) {
                 -db_from_ratio(make_path_loss(MediumConfig()).gain(100, channel_1_hz)), 1e-9);
 }
 
-// Γ is −1 and both rays are equally long.
+// Γ is −1 and both rays have the same length.
 TEST(TwoRayInterference, OnTheGroundNothingIsLeft) {
     MediumConfig config;
     config.path_loss = "TwoRayInterference";
@@ -61,7 +61,7 @@ TEST(TwoRayInterference, OnTheGroundNothingIsLeft) {
 }
 
 TEST(TwoRayGroundReflection, IsFreeSpaceUpToTheCrossover) {
-    // At heights of 2 m it is 404.4 m away.
+    // At heights of 2 m the distance is 404.4 m.
     EXPECT_NEAR(reflection_loss_db({0, 0, 2}, {100, 0, 2}), 80.095329291245648, 1e-9);
     EXPECT_NEAR(reflection_loss_db({0, 0, 2}, {404.4142, 0, 2}),
                 reflection_loss_db({0, 0, 2}, {404.4143, 0, 2}), 1e-5);

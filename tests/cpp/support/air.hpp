@@ -1,4 +1,4 @@
-// A medium and what is needed around it, for tests of single radios and stations without a Network.
+// A medium and its context, for tests of single radios and stations without a Network.
 #pragma once
 
 #include <deque>
@@ -29,12 +29,12 @@ inline RadioConfig radio_of_power(double tx_power_w) {
     return config;
 }
 
-// The transmitter power that arrives as `received_w` over free space at 2.412 GHz.
+// The transmission power that arrives as `received_w` over free space at 2.412 GHz.
 inline double power_for(double received_w, double distance_m) {
     return received_w / make_path_loss(MediumConfig()).gain(distance_m, RadioConfig().carrier_hz);
 }
 
-// A copy of a frame as it reached one place.
+// A reception of a frame at one place.
 struct Heard {
     SimTime start;
     SimTime end;
@@ -43,8 +43,8 @@ struct Heard {
     double power_w;
 };
 
-// Hears every frame of its band at its place and keeps the instants. Sends nothing, disturbs
-// nothing.
+// Receives every frame of its band at its place and records the instants. It does not transmit or
+// interfere.
 class Sniffer final : public MediumListener {
 public:
     explicit Sniffer(Position place) : trajectory(place) {}
@@ -156,7 +156,7 @@ public:
                  std::uint64_t seed = 1)
         : medium(simulator, config, frame_fates, fingerprint, culling, seed), seed_(seed) {}
 
-    // The first interface of one more node.
+    // The first interface of another node.
     InterfaceId next_node() {
         frame_fates.add_node();
         return InterfaceId{node_count_++, 0};
@@ -164,7 +164,7 @@ public:
     BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
         return radios_.emplace_back(simulator, medium, next_node(), config, place, seed_);
     }
-    // The channel has always been idle: what it sends first leaves at once.
+    // The channel has always been idle: the first frame is sent at once.
     Station& add_station(Position place, MacConfig mac = MacConfig(),
                          const RadioConfig& radio = RadioConfig()) {
         mac.initial_channel_busy = false;
@@ -190,7 +190,7 @@ public:
     std::uint64_t broadcast_count_at(const BareRadio& receiver, FrameFate fate) const {
         return frame_fates.counts_at(receiver.id(), FrameKind::broadcast)[static_cast<std::size_t>(fate)];
     }
-    // From all stations.
+    // For all stations.
     std::uint64_t message_count(MessageKind kind, MessageFate fate) const {
         MessageFateSums sums;
         for (const Station& station : stations_) {

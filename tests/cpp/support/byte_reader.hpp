@@ -1,5 +1,5 @@
-// Numbers, flags and names taken from any bytes, zeros when they have run out. Used by what the
-// fuzzer draws.
+// Numbers, flags and names decoded from bytes; zeros after their end. Used by the fuzzer's
+// scenarios.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ public:
     std::uint32_t below(std::uint32_t count) {
         return (static_cast<std::uint32_t>(byte()) << 8 | byte()) % count;
     }
-    // Any double there is, if the bytes say so; otherwise the usual one times a power of ten.
+    // Any double for some bytes; otherwise the usual value times a power of ten.
     double number(double usual) {
         const std::uint8_t kind = byte();
         if (kind < 128) {

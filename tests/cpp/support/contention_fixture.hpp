@@ -1,4 +1,4 @@
-// One station's wait for the channel, told by hand when that is busy, free, or brought a frame.
+// One station's channel access; the test reports busy and free channels, and frames.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ protected:
         }
         return *contention_;
     }
-    // With no slots to wait unless the test says so.
+    // Without backoff slots unless the test sets them.
     void start_at(SimTime time, int contention_window = 0) {
         simulator.schedule_at(time, [this, contention_window] { contention().start(contention_window); });
     }

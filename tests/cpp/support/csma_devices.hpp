@@ -1,5 +1,5 @@
-// The fixture of tests of CSMA/CA as in 802.15.4: devices on one air, and the durations and
-// intervals of IEEE 802.15.4, written out, from which instants are computed by hand.
+// Fixture of the tests of CSMA/CA in 802.15.4: devices on one channel, and the durations and
+// intervals of IEEE 802.15.4, from which instants are computed by hand.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include "netsim/phy/oqpsk_mode.hpp"
 #include "support/air.hpp"
 
-// A namespace of its own: 802.11 has intervals of the same names.
+// A separate namespace: 802.11 has intervals of the same names.
 namespace netsim::test::csma {
 
 inline constexpr SimTime period = us(320);
@@ -83,7 +83,7 @@ protected:
         jammer.radio.transmit(std::make_shared<const Frame>(std::move(frame)), FrameLabel(), 100,
                               oqpsk_250_kbps, duration);
     }
-    // The numbers that a device draws.
+    // Random numbers of a device.
     static RandomStream draws_of(const Device& device) {
         return {seed, static_cast<std::uint32_t>(device.id()), Purpose::csma_backoff};
     }

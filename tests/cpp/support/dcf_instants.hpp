@@ -1,5 +1,5 @@
-// What the tests of the Dcf count with: the instants are computed by hand from the durations and
-// intervals of IEEE 802.11, which are written out here.
+// Constants of the tests of the Dcf: the instants are computed by hand from the durations and
+// intervals of IEEE 802.11 in this file.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The fixture of tests of the Dcf: two stations and what is on the air at the first.
+// Fixture of the tests of the Dcf: two stations, and the frames on the air at the first.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ protected:
         b = &air.add_station({light_microsecond_m, 0, 0}, mac);
         at_a = &air.add_sniffer({0, 0, 0});
     }
-    // Station b gets what a sends, but its answers are too weak for a.
+    // Station b receives a's frames, but its responses are too weak for a.
     void add_pair_without_way_back(const MacConfig& mac) {
         a = &air.add_station({0, 0, 0}, mac);
         b = &air.add_station({light_microsecond_m, 0, 0}, mac, radio_of_power(1e-6));
@@ -32,7 +32,7 @@ protected:
         }
         return times;
     }
-    // Unicast messages, of either.
+    // Unicast messages, in both directions.
     std::uint64_t given_up() const {
         return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
     }

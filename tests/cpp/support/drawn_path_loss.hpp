@@ -1,5 +1,5 @@
-// Draws what the models of path loss and fading have for parameters, on both sides of what is
-// usual.
+// Draws the parameters of the models of path loss and fading, within and beyond their usual
+// values.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace netsim::test {
 
-// All but the name and the coherence time, whatever the model.
+// All except the name and the coherence time, for any model.
 inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws) {
     const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
     const auto log_between = [&draws](double low, double high) {
@@ -22,7 +22,7 @@ inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws)
     config.breakpoint_distance_m = log_between(0.5, 500);
     config.l01_db = between(30, 50);
     config.alpha1 = between(1.5, 4);
-    // Where the two laws meet, or a step up or down.
+    // The two laws meet, or there is a step up or down.
     config.l02_db = config.l01_db + 10 * config.alpha1 * std::log10(config.breakpoint_distance_m) +
                     (chance(0.3) ? 0 : between(-6, 6));
     config.alpha2 = between(1.5, 5);

@@ -1,6 +1,6 @@
-// Random scenarios for what looks for receivers by place: more nodes than hear each other, on and
-// around the borders of any grid, anywhere in the world, fast ones among them, of several bands,
-// powers and thresholds.
+// Random scenarios for the neighbor search: more nodes than hear each other, on and around the
+// borders of any grid, anywhere in the world. Some are fast, and bands, powers and thresholds
+// differ.
 #pragma once
 
 #include "support/random_scenario.hpp"
@@ -44,7 +44,7 @@ inline RandomScenario make_far_flung_scenario(std::uint64_t seed) {
     const double sensitivity_spread_db = chance(0.5) ? 0 : 12;
     const double detection_offset_db = between(-8, 8);
     const double detection_spread_db = chance(0.5) ? 0 : 10;
-    const bool slow_frames = chance(0.5);  // many on the air at once
+    const bool slow_frames = chance(0.5);  // many on the air at the same time
     const double movers = chance(0.5) ? 0 : draws.uniform();
 
     for (int id = 0; id < count; ++id) {
@@ -87,7 +87,7 @@ inline RandomScenario make_far_flung_scenario(std::uint64_t seed) {
     scenario.talk.until = SimTime::from_seconds(count * log_between(3e-5, 1e-3));
     scenario.talk.corner = corner;
     scenario.talk.area_m = area_m;
-    // Within a run, across a cell and back.
+    // Across a cell and back within a run.
     scenario.talk.top_speed_mps = log_between(0.1, 30) * reach_m / scenario.talk.until.seconds();
     scenario.talk.moves = movers > 0;
     scenario.talk.movers = movers;

@@ -1,7 +1,7 @@
-// Configurations read from any bytes: every model that a name chooses, and numbers of every size.
+// Configurations decoded from bytes: all models, and numbers of all sizes.
 //
-// Fields and ranges come from their declarations. Zeros give the defaults, and parts that scenarios seldom change are left
-// alone by half of the bytes; otherwise the checks would reject nearly every configuration. The caller skips rejected ones.
+// Fields and ranges come from their declarations. Zeros give the defaults. Half of the bytes do not change parts that
+// scenarios seldom change; otherwise the checks would reject nearly every configuration. The caller skips rejected ones.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    // Draws all fields but those whose values depend on others.
+    // Draws all fields except those whose values depend on others.
     void fields(const Schema& schema, void* config) {
         for (const Field& field : schema.fields) {
             const bool is_elsewhere = field.name == "typename" || field.name == "carrier_hz" ||
@@ -75,7 +75,7 @@ private:
         }
     }
 
-    // Within the bounds, or no number.
+    // Within the bounds, or not a number.
     double value(const ValueType& type, double usual) {
         if ((usual == 0 || usual == type.special) && bytes_.flag()) {
             const bool is_bounded = std::isfinite(type.least) && std::isfinite(type.most);
@@ -102,7 +102,7 @@ private:
         }
     }
 
-    // Corners are on the lattice of the nodes' usual positions, so that nodes lie on walls and corners.
+    // Corners are on the lattice of the nodes' usual positions, so that nodes are on walls and corners.
     Ring ring() {
         const double x = 10.0 * bytes_.byte();
         const double y = 10.0 * bytes_.byte();
@@ -145,7 +145,7 @@ private:
         }
     }
 
-    // -1, one of the operation mode's, or any.
+    // -1, a bitrate of the operation mode, or any number.
     double bitrate_bps(const std::string& op_mode) {
         const auto modes = mode_set(op_mode).modes();
         const std::uint32_t index = bytes_.below(static_cast<std::uint32_t>(modes.size()));

@@ -1,10 +1,9 @@
-// A scenario and a script of commands read from any bytes: models of every name, positions, times,
-// powers, ranges and texts of every size.
+// A scenario and a script of commands decoded from bytes: all models, positions, times, powers,
+// ranges and payload sizes.
 //
-// What the configurations refuse is no scenario, and what a node refuses is no command; everything
-// else has to run without a crash, no message may wait for nothing, and the ledgers have to
-// balance. Used by the fuzzer (tests/fuzz), which searches for bytes that break it, and by a test
-// that tries random ones.
+// Rejected configurations and commands are skipped. Everything else must run without a crash, no
+// message may wait for nothing, and outcomes must balance. Used by the fuzzer (tests/fuzz), which
+// searches for bytes that break it, and by a test with random bytes.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +24,7 @@ class FuzzedScenario {
 public:
     explicit FuzzedScenario(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-    // Returns what is wrong, or "". Crashes, where the engine does.
+    // Return the error, or "". Crashes if the engine does.
     std::string run() {
         try {
             const MediumConfig medium = configs_.medium();
@@ -44,13 +43,13 @@ public:
 private:
     static constexpr std::uint64_t max_events = 20'000;
     static constexpr int max_commands = 60;
-    static constexpr double longest_wait_s = 1.1e6;  // 2^20 backoff periods of a second, and a little
+    static constexpr double longest_wait_s = 1.1e6;  // 2^20 backoff periods of a second, plus a margin
 
     void add_nodes(Network& network) {
         for (std::uint32_t count = 1 + bytes_.below(6); count > 0; --count) {
             try {
                 network.add_node(configs_.node());
-            } catch (const ConfigError&) {  // the others may do
+            } catch (const ConfigError&) {  // the others may be valid
             }
         }
     }
@@ -79,8 +78,8 @@ private:
         is_done_ = true;
     }
 
-    // Lets everything end that has begun. What waits for nothing is an error; very slow ones need
-    // not end.
+    // Run until everything has ended. A message that waits for nothing is an error; very slow ones
+    // need not end.
     std::string_view come_to_rest(Network& network) {
         if (!run_for(network, 100)) {
             return "";
@@ -94,7 +93,7 @@ private:
                 return "messages wait for nothing";
             }
         }
-        // A frame and its answer, from the farthest places, with the longest intervals.
+        // A frame and its response, over the largest distance, with the longest intervals.
         is_at_rest_ =
             waiting_messages(network) == 0 && run_for(network, 10) && waiting_messages(network) == 0;
         return "";
@@ -137,8 +136,8 @@ private:
 
     Payload text() { return std::make_shared<const std::string>(bytes_.below(70'000), 'x'); }
 
-    // Every message has met its fate or waits in a queue; with nothing on the air, so has every
-    // copy of every frame.
+    // Every message has an outcome or waits in a queue. With nothing on the air, every reception has
+    // an outcome, too.
     std::string imbalance(Network& network) const {
         for (std::size_t index = 0; is_at_rest_ && index < frame_kind_count; ++index) {
             for (const bool overheard : {false, true}) {
@@ -165,8 +164,8 @@ private:
 
     ByteReader bytes_;
     FuzzedConfig configs_{bytes_};
-    bool is_done_ = false;     // the script came to its end, in as many events as it may have
-    bool is_at_rest_ = false;  // and all that it began
+    bool is_done_ = false;     // the script has ended, within its limit of events
+    bool is_at_rest_ = false;  // and so has everything that it started
 };
 
 }  // namespace netsim::test

@@ -1,6 +1,6 @@
-// Random scenarios on a line of places a light-microsecond apart, where all begin to send in whole
-// microseconds: frames arrive, end and are sent in the same instants, in every order of their
-// turns. Some are answered in the instant in which they end.
+// Random scenarios on a line of places a light-microsecond apart. All frames start at integer
+// microseconds: they arrive, end and are sent at the same instants, in all orders. Some are
+// answered at the instant in which they end.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +59,8 @@ inline RandomScenario make_light_step_scenario(std::uint64_t seed) {
     scenario.talk.late = chance(0.5) ? 0.5 : 0;
     scenario.talk.answers = chance(0.6) ? between(0, 0.6) : 0;
     if (chance(0.5)) {
-        // Some frames bring to each exactly what it takes, if they come together: then their sum
-        // may not depend on the model.
+        // Some frames give each receiver exactly the necessary energy, if they come together: then
+        // their sum must not depend on the model.
         const PathLoss path_loss = make_path_loss(scenario.medium);
         for (NodeConfig& node : scenario.nodes) {
             RadioConfig& radio = node.wlan[0].radio;

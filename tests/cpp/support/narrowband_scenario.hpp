@@ -1,4 +1,4 @@
-// Random scenarios whose nodes are 802.15.4 devices, some of them beside 802.11 stations.
+// Random scenarios whose nodes are 802.15.4 devices, some of them next to 802.11 stations.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline RandomScenario make_narrowband_scenario(std::uint64_t seed) {
     const double mixed_share = chance(0.3) ? 0.5 : 1;
     const bool two_channels = chance(0.2);
     const double snir_threshold_db = chance(0.5) ? -8 : 1;
-    const bool eager = chance(0.3);  // many frames in one instant
+    const bool eager = chance(0.3);  // many frames at one instant
 
     for (NodeConfig& node : scenario.nodes) {
         if (!chance(mixed_share)) {
@@ -60,7 +60,7 @@ inline RandomScenario make_narrowband_scenario(std::uint64_t seed) {
         csma.lifs_s = chance(0.3) ? 640e-6 : 0;
         node = device;
     }
-    scenario.talk.longest_text = 70;  // behind a number of the sender and one of the message
+    scenario.talk.longest_text = 70;  // after the numbers of the sender and of the message
     scenario.talk.until = SimTime::from_seconds(scenario.talk.until.seconds() * 5);
     if (scenario.talk.beat > SimTime()) {
         scenario.talk.beat = SimTime::from_ps(scenario.talk.until.ps() / 3);

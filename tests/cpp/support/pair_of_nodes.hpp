@@ -1,5 +1,5 @@
 // Two nodes 10 m apart for the tests of native protocols: one runs the protocol, the other one
-// writes down.
+// records.
 #pragma once
 
 #include <string_view>

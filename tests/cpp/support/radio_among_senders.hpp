@@ -1,4 +1,4 @@
-// The fixture of tests of a radio: a receiver, and senders around it whose frames reach it with a
+// Fixture of the tests of a radio: a receiver, and senders around it whose frames arrive with a
 // given power.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace netsim::test {
 inline constexpr double sensitivity_w = 3.1622776601683794e-12;
 inline constexpr double strong_w = 1e-10;
 
-// The receiver is in the middle; a frame needs a microsecond to it.
+// The receiver is in the middle; a frame takes a microsecond to reach it.
 class RadioAmongSenders : public testing::Test {
 protected:
     BareRadio& add_receiver(const RadioConfig& config = RadioConfig()) {

@@ -1,4 +1,4 @@
-// What a radio told the layer above it, written down.
+// Log of a radio's notifications to the layer above.
 #pragma once
 
 #include <ostream>

@@ -1,4 +1,4 @@
-// Draws antennas, the way they are turned, and obstacles for a scenario.
+// Draws antennas, their orientations, and obstacles for a scenario.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,8 @@ inline RandomScenario with_random_environment(RandomScenario scenario) {
         node.mobility.initial_orientation = angles();
         node.mobility.face_forward = chance(0.5);
     }
-    // Ends inside of obstacles, on their corners and along their walls are as likely as not: some
-    // have a lattice's.
+    // Ends inside of obstacles, on their corners and along their walls are likely: some positions
+    // are on a lattice.
     MediumConfig& medium = scenario.medium;
     medium.obstacle_loss = obstacle_loss_names[draws.uniform_int(obstacle_loss_names.size())];
     medium.enable_reflection_loss = chance(0.8);

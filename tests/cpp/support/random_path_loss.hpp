@@ -1,4 +1,4 @@
-// Draws a model of path loss or fading for a scenario that has one of the two power laws.
+// Draws a path loss or fading model for a scenario with one of the two power laws.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace netsim::test {
 
-// Any of them with the same chance, and heights that matter to it.
+// Each model with the same probability, and heights that affect it.
 inline RandomScenario with_random_path_loss(RandomScenario scenario) {
     RandomStream draws(scenario.seed, 0, Purpose{1004});
     const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
@@ -21,7 +21,7 @@ inline RandomScenario with_random_path_loss(RandomScenario scenario) {
     MediumConfig& medium = scenario.medium;
     medium.path_loss = std::string(path_loss_names[draws.uniform_int(path_loss_names.size())]);
     draw_path_loss_parameters(medium, draws);
-    // Of the order of a frame, a run, or anything else.
+    // About the duration of a frame, of a run, or any other.
     const double until_s = scenario.talk.until.seconds();
     const double coherence_time_s = chance(0.5) ? log_between(1e-4, 1e-1) : until_s * between(0.1, 3);
     medium.coherence_time_s = chance(0.25) ? 0 : coherence_time_s;

@@ -1,5 +1,5 @@
-// Draws options of the receiver for each node of a scenario: what they leave out of the energy, and
-// for how long.
+// Draws receiver options for each node of a scenario: the energy that they ignore, and for how
+// long.
 #pragma once
 
 #include "support/random_scenario.hpp"

@@ -1,4 +1,4 @@
-// Random scenarios: nodes whose links are good, marginal and hopeless, with bursts of messages that
+// Random scenarios: nodes with good, marginal and hopeless links, and bursts of messages that
 // collide.
 #pragma once
 
@@ -50,13 +50,12 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     const double detection_spread_db = chance(0.5) ? 0 : 10;
     const double power_spread_db = chance(0.5) ? 0 : 15;
     const double lattice_m = chance(0.3) ? area_m / 4 : 0;  // equal distances, shared places
-    const bool short_backoffs = chance(0.3);                // many frames in one instant
+    const bool short_backoffs = chance(0.3);                // many frames at one instant
 
-    // From a stream of its own, so that scenarios without RTS are what they were before there was
-    // RTS.
+    // From a separate stream, so that scenarios without RTS do not change.
     RandomStream rts_draws(seed, 1, Purpose{1001});
     const bool with_rts = rts_draws.uniform() < 0.5;
-    // Likewise options of the receiver, each drawn for each node.
+    // The same for options of the receiver, drawn for each node.
     RandomStream option_draws(seed, 3, Purpose{1001});
     const auto option = [&option_draws](double share) { return option_draws.uniform() < share; };
     const bool with_options = option(0.5);
@@ -65,7 +64,7 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         scenario.medium.temperature_k = 400 * option_draws.uniform();
     }
     const BackgroundNoise noise(scenario.medium);
-    // Likewise the operation modes of stations that do not all have the same one.
+    // The same for the operation modes of stations with different ones.
     RandomStream mode_draws(seed, 5, Purpose{1001});
     const bool of_several_modes = mode_draws.uniform() < 0.3;
 
@@ -142,7 +141,7 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     return scenario;
 }
 
-// A scenario as it runs, with what it delivered.
+// A running scenario, with its deliveries.
 class ScenarioRun {
 public:
     explicit ScenarioRun(const RandomScenario& scenario, Culling culling = Culling::enabled,

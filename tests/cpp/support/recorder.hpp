@@ -1,4 +1,4 @@
-// A protocol that writes down what it is told, and does what a test gives it to do.
+// A protocol that records its callbacks, and executes actions of the test.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// A node of the engine's tests: it stands, and nobody tells it where.
+// A stationary node without telemetry.
 #pragma once
 
 #include "netsim/config/node_config.hpp"

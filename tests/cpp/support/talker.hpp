@@ -1,5 +1,5 @@
-// A protocol that talks at random, through all its interfaces: bursts of messages at random times
-// and changes of course, from a stream of its own.
+// A protocol that sends at random through all its interfaces: bursts of messages at random times,
+// and changes of course, from a separate stream.
 #pragma once
 
 #include <memory>
@@ -22,19 +22,19 @@ struct Delivery {
 struct Talk {
     std::uint64_t seed = 0;
     std::int32_t node_count = 0;
-    SimTime until;             // nothing is sent from then on
-    std::uint32_t rounds = 1;  // bursts of each node
+    SimTime until;             // no messages from then on
+    std::uint32_t rounds = 1;  // bursts per node
     std::uint32_t longest_burst = 1;
     std::uint32_t longest_text = 100;
     double broadcast_share = 0.5;
     double area_m = 0;
-    Position corner;  // of the area in which it moves
+    Position corner;  // of the area of its flights
     double top_speed_mps = 300;
     bool moves = false;
-    double movers = 1;  // the share of nodes that do
-    SimTime beat;       // if not zero, bursts are at multiples of it, so that nodes start in the same instant
-    double late = 0;  // the share of bursts whose timer is set a beat before: after what is due then already
-    double answers = 0;  // the share of messages that it answers with a burst, at once
+    double movers = 1;  // the ratio of nodes that fly
+    SimTime beat;       // if not zero, bursts are at multiples of it, so that nodes start at the same instant
+    double late = 0;    // the ratio of bursts whose timer is set a beat earlier, after events due then
+    double answers = 0;  // the ratio of messages that it answers with a burst, at once
 };
 
 class Talker final : public Protocol {
@@ -77,7 +77,7 @@ public:
     void handle_telemetry(const Position&) override {}
     void finish() override {}
 
-    // Messages, through whatever interface.
+    // Messages through all interfaces.
     std::uint64_t sent() const { return sent_; }
 
 private:
@@ -100,10 +100,9 @@ private:
             }
         }
     }
-    // Draws nothing for a share of 0, so that scenarios without what it is the share of stay as
-    // they are.
+    // Draws nothing for a ratio of 0, so that scenarios without that feature do not change.
     bool draws_below(double share) { return share > 0 && draws_.uniform() < share; }
-    // Who has only one draws nothing, likewise.
+    // With only one choice it draws nothing, either.
     std::int32_t interface() {
         const auto count = static_cast<std::uint32_t>(node_.interfaces().size());
         return count == 1 ? 0 : static_cast<std::int32_t>(draws_.uniform_int(count));

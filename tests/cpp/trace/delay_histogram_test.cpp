@@ -42,7 +42,7 @@ TEST(DelayHistogram, EqualDelaysShareABinAndOthersAreInOrder) {
     EXPECT_LE(bins[1].end, bins[2].begin);
 }
 
-// Of any delay, at both ends of each octave too.
+// For any delay, also at both ends of each octave.
 TEST(DelayHistogram, ABinHoldsItsDelayAndIsNarrow) {
     RandomStream draws(1, 0, Purpose{1001});
     for (unsigned octave = 0; octave < 63; ++octave) {

@@ -17,7 +17,7 @@ TEST(Interferers, CountsOfNobodyAreEmpty) {
     EXPECT_TRUE(interferers.at(0).empty());
 }
 
-// Losses are counted many at a time: what is told must not depend on how many of them have been.
+// Losses are counted in batches; the reported counts must not depend on the batches.
 TEST(Interferers, AfterEachOfManyLossesCountsAreThoseOfAMap) {
     constexpr std::uint32_t nodes = 7;
     Interferers interferers;

@@ -15,7 +15,7 @@ namespace {
 
 using test::TemporaryFile;
 
-// Accepts being opened and takes nothing: the disk that is always full.
+// Can be opened but not written: a disk that is always full.
 constexpr const char* full_disk = "/dev/full";
 
 TEST(PcapWriter, AFileOfOnePacket) {
@@ -64,7 +64,7 @@ TEST(PcapWriter, AFullDiskIsAnErrorAtOnce) {
     EXPECT_THROW(PcapWriter writer(full_disk, LinkType::radiotap), ConfigError);
 }
 
-// While it lives, no file of this process grows beyond a limit.
+// While it exists, no file of this process grows beyond a limit.
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

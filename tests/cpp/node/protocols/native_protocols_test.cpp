@@ -72,8 +72,8 @@ TEST_F(NativeProtocols, AWholeNumberWillDoForANumber) {
               error_of("BeaconProtocol", {{"interval", 0.0}}));
 }
 
-// The error of each protocol that has messages of a size to choose, if they are one byte longer
-// than the longest; none may have one for the longest.
+// The error of each protocol with messages of variable size, if they are one byte too long. There
+// must be none for the longest valid size.
 class LongestMessage : public testing::Test {
 protected:
     static void expect_limit(const MediumConfig& medium, const NodeConfig& config,

@@ -7,7 +7,7 @@
 namespace netsim {
 namespace {
 
-// Flies along the x axis at 10 m/s; a test says where it is.
+// Flies along the x axis at 10 m/s; the test sets its position.
 class ReversingMissionTest : public testing::Test {
 protected:
     double target_x_after(const Position& telemetry) {

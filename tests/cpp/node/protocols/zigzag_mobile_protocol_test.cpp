@@ -17,7 +17,7 @@ namespace {
 using zigzag::decode;
 using zigzag::Message;
 
-// The other node sends what a test has it say, at 10 s, 20 s, …
+// The other node sends messages of the test at 10 s, 20 s, …
 class ZigZagMobileTest : public test::PairOfNodes {
 protected:
     void hear(const std::vector<Message>& messages) {
@@ -29,7 +29,7 @@ protected:
         };
         other->on_timer = [](test::Recorder& self, const std::string& text) { self.send(0, text); };
     }
-    // What the tested node sent besides heartbeats.
+    // Messages of the tested node, without heartbeats.
     std::vector<Message> answers() const {
         std::vector<Message> result;
         for (const std::string& text : other->packet_texts()) {
@@ -83,7 +83,7 @@ TEST_F(ZigZagMobileTest, AsksForAnExchange) {
 TEST_F(ZigZagMobileTest, ConfirmsAndTurnsRound) {
     hear({zigzag::PairRequest{1, 0, 4}, zigzag::UavHeartbeat{1, true, true}});
     run("ZigZagMobileProtocol", hovering(), 30);
-    // It is the carrier and flies homeward now, as the other one does.
+    // It is the carrier and flies homeward now, like the other one.
     EXPECT_EQ(answers(),
               (std::vector<Message>{zigzag::PairConfirmation{0, 0, 0}, zigzag::PairRequest{0, 0, 0}}));
     EXPECT_EQ(tracked("data"), TrackedValue(std::int64_t{4}));

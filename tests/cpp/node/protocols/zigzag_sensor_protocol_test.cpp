@@ -14,7 +14,7 @@ namespace {
 using zigzag::decode;
 using zigzag::Message;
 
-// The other node sends what a test has it say, at 10 s, 20 s, …
+// The other node sends messages of the test at 10 s, 20 s, …
 class ZigZagSensorTest : public test::PairOfNodes {
 protected:
     void hear(const std::vector<Message>& messages) {
@@ -26,7 +26,7 @@ protected:
         };
         other->on_timer = [](test::Recorder& self, const std::string& text) { self.send(0, text); };
     }
-    // What the tested node sent besides heartbeats.
+    // Messages of the tested node, without heartbeats.
     std::vector<Message> answers() const {
         std::vector<Message> result;
         for (const std::string& text : other->packet_texts()) {
