@@ -65,11 +65,12 @@ torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUT
 
 lint: lint-python lint-cpp lint-files docs  ## All checks of style, types, layers and links: Python, C++, files of the repository, pages.
 
-lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports.
+lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports, and the English of all files.
 	ruff check $(python_checked)
 	ruff format --check $(python_checked)
 	mypy
 	lint-imports
+	python -m pytest -q --capture=no tests/python/house/test_english.py
 
 lint-cpp: $(STAMPS)/build $(STAMPS)/lint system-gtest  ## clang-format, clang-tidy.
 	clang-format --dry-run -Werror $(cpp_checked)
