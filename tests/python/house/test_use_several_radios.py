@@ -1,6 +1,7 @@
 """The scenario and the engine agree with docs/how-to/use-several-radios.md."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,15 @@ from gradysim.scenario import load_scenarios
 @pytest.fixture
 def guide(root: Path) -> str:
     return (root / "docs/how-to/use-several-radios.md").read_text(encoding="utf-8")
+
+
+def test_its_command_prints_what_it_shows(
+    root: Path, code_blocks: Callable[[str, str], list[str]], prints: Callable[[str, Path, str], bool]
+) -> None:
+    (command,), (shown,) = (
+        code_blocks("docs/how-to/use-several-radios.md", language) for language in ("sh", "text")
+    )
+    assert prints(command, root, shown)
 
 
 def test_its_ini_lines_are_those_of_the_scenario(guide: str, root: Path) -> None:
