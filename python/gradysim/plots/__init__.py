@@ -1,8 +1,8 @@
 """Figures of a study: `gradysim plot` as functions.
 
-Each function draws into axes of matplotlib and returns them. `runs` are those of `gradysim.results.runs`; `y`
-is the name of a quantity of `gradysim means`, `x` and `by` are names of variables (`config`, `mode` and those
-of `${name=...}`). By default there is a curve for each combination of the other variables that differ.
+Each function draws into axes of matplotlib and returns them. `runs` come from `gradysim.results.runs`. `y` is
+the name of a quantity of `gradysim means`. `x` and `by` are names of variables: `config`, `mode` and those of
+`${name=...}`. By default there is a curve for each combination of the other variables that differ.
 
     figure = gradysim.plots.new_figure()
     gradysim.plots.line(figure.subplots(), runs("results"), x="jitter", y="nodes[*] heard")
@@ -72,12 +72,12 @@ def outcomes(
     by: Iterable[str] | None = None,
     omit: Iterable[str] = (),
 ) -> "Axes":
-    """Draw what became of frames or messages, `y` = `broadcast frames`, as stacked bars without `omit`."""
+    """Draw the outcomes of frames or messages, `y` = `broadcast frames`, as stacked bars without `omit`."""
     return draw_outcomes(axes, outcomes_numbers(runs, x=x, y=y, by=by, omit=omit))
 
 
 def map(axes: "Axes", runs: Runs) -> "Axes":
-    """Draw where the nodes of the first run were, from the files of `gradysim run --vectors`."""
+    """Draw the paths of the nodes of the first run, from the files of `gradysim run --vectors`."""
     return draw_map(axes, map_numbers(runs))
 
 
@@ -86,11 +86,11 @@ class Kind:
     """A kind of figure.
 
     Attributes:
-        numbers: Computes what it shows.
-        draw: Draws that into axes.
+        numbers: Computes the numbers of the figure.
+        draw: Draws them into axes.
         needs: Arguments that `numbers` must have.
         takes: Its other arguments.
-        names: Returns what `y` may be.
+        names: Returns the valid values of `y`.
     """
 
     numbers: Callable[..., Numbers]
@@ -127,10 +127,10 @@ def save_figure(
         kind: A name in `KINDS`.
         columns: Width of the figure: 1 or 2 columns of a page.
         log: Axes with a logarithmic scale: "x", "y".
-        arguments: What the function of this kind takes; None for what is not given.
+        arguments: Arguments of the function of this kind; None if not given.
 
     Raises:
-        ConfigError: An argument is wrong.
+        ConfigError: An argument is not valid.
         ImportError: matplotlib is missing.
         OSError: A file cannot be read or written.
     """

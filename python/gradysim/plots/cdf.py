@@ -27,14 +27,14 @@ if TYPE_CHECKING:
 _DELAY = " messages delay in s"
 
 Distribution = tuple[Sequence[float], Sequence[float]]
-"""Values in ascending order, and the share of all that do not exceed each of them."""
+"""Values in ascending order, and the ratio of values that do not exceed each of them."""
 
 
 def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbers:
-    """Return the share of values of `y` up to each value, the mean over runs.
+    """Return the ratio of values of `y` up to each value, averaged over runs.
 
-    The values are those of messages for a delay, those of nodes for a tracked variable of a group, and else
-    those of runs, which have no interval. Raises ConfigError and OSError.
+    The values belong to messages for a delay, and to nodes for a tracked variable of a group. Other values
+    belong to runs, and have no interval. Raises ConfigError and OSError.
     """
     check_quantity(runs, y)
     curves, counts = [], []
@@ -43,7 +43,7 @@ def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbe
         if not found:
             continue
         counts.append(len(found))
-        if all(len(each[0]) == 1 for each in found):  # a number for each run
+        if all(len(each[0]) == 1 for each in found):  # one number per run
             found = [_of_values([each[0][0] for each in found])]
         grid = sorted({value for each in found for value in each[0]})
         columns = mean_columns([[_share(each, value) for each in found] for value in grid])

@@ -1,4 +1,4 @@
-"""The look of figures, and the three files of one: the picture, its numbers and their origin."""
+"""Style of figures, and the three files of a figure: the picture, its numbers and their origin."""
 
 import csv
 import json
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
-"""Those of M. Okabe and K. Ito, which color-blind people tell apart, without yellow.
+"""Palette of M. Okabe and K. Ito for color-blind readers, without yellow.
 
 Source: https://jfly.uni-koeln.de/color/, 2008.
 """
@@ -50,7 +50,7 @@ WIDTHS_IN = {1: 3.5, 2: 7.16}
 HEIGHT_IN = 2.4
 
 _MOST_INSIDE = 4
-"""Entries of a legend inside the axes. A longer one stands beside them."""
+"""Largest number of entries of a legend inside the axes. A longer legend is next to them."""
 
 SUFFIXES = (".pdf", ".png", ".svg")
 
@@ -120,7 +120,7 @@ def write_files(
 ) -> tuple[Path, Path, Path]:
     """Write FILE.pdf, FILE.csv with its numbers and FILE.json with their origin, and return the paths.
 
-    `origin` is what was asked for. The JSON file adds the version and the runs with hashes of their files.
+    `origin` has the arguments. The JSON file adds the version and the runs with hashes of their files.
     Missing directories are created. Raises OSError, which names the file.
     """
     table, provenance = path.with_suffix(".csv"), path.with_suffix(".json")
@@ -147,17 +147,17 @@ def write_files(
         file = provenance
         provenance.write_text(json.dumps(content | {"runs": told}, indent=2) + "\n", encoding="utf-8")
     except OSError as error:
-        error.filename = str(file)  # a full disk does not say it
+        error.filename = str(file)  # missing for a full disk
         raise
     return path, table, provenance
 
 
 _DATE = {".pdf": "CreationDate", ".svg": "Date"}
-"""Metadata that would differ each time."""
+"""Metadata that would differ between two runs."""
 
 
 def rows_of(numbers: Numbers) -> list[list[object]]:
-    """Return a heading, and a row for each number drawn."""
+    """Return a header, and a row for each drawn number."""
     headings = list(
         dict.fromkeys(name for curve in numbers.curves for name in (*curve.values, *curve.columns))
     )

@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _MOST_TICKS = 12
-"""Values of an axis that are its ticks."""
+"""Largest number of values that are ticks of an axis."""
 
 _WIDTH_OF_CATEGORY = 0.5
-"""Of 1, the distance to the next one: the curves stand side by side in it."""
+"""Relative to the distance of two categories: the curves are next to each other within it."""
 
 
 def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None) -> Numbers:
@@ -119,7 +119,7 @@ def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
 
 
 def _set_ticks(axes: "Axes", values: Sequence[float]) -> None:
-    """Let the values be the ticks if that leaves room for each, else integers if all are."""
+    """Use the values as ticks if there is room, otherwise integers if all values are integers."""
     least_gap = min((high - low for low, high in pairwise(values)), default=0)
     if len(values) <= _MOST_TICKS and least_gap * _MOST_TICKS >= values[-1] - values[0]:
         axes.set_xticks(values, [f"{value:g}" for value in values])
@@ -128,7 +128,7 @@ def _set_ticks(axes: "Axes", values: Sequence[float]) -> None:
 
 
 def draw_diff(axes: "Axes", numbers: Numbers) -> "Axes":
-    """Draw mean differences, and in how many of the pairs the value is higher than the baseline."""
+    """Draw mean differences, and the number of pairs in which the value is higher than the baseline."""
     axes.axhline(0, color="gray", linewidth=0.6)
     draw_line(axes, numbers)
     axes.legend()

@@ -1,4 +1,4 @@
-"""Where nodes were: the trajectories of one run, from above."""
+"""Positions of nodes: the trajectories of one run, from above."""
 
 import math
 from collections.abc import Sequence
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _TOLERANCE_M = 0.1
-"""Points that lie this close to a line between others are left out."""
+"""Points that are this close to a line between others are left out."""
 
 _MOST_NAMES = 6
-"""Moving nodes that the legend names."""
+"""Largest number of moving nodes in the legend."""
 
 Point = tuple[float, float, float, float]
 """Time in s and coordinates in m."""
@@ -27,7 +27,7 @@ Point = tuple[float, float, float, float]
 def map_numbers(runs: Runs) -> Numbers:
     """Return the trajectory of each node of the first run that is in its `.vec` file.
 
-    Other nodes have one point, where they are at the end. Raises ConfigError and OSError.
+    Other nodes have one point, their final position. Raises ConfigError and OSError.
     """
     run = next(iter(Runs(runs)))
     one = Runs([run])
@@ -54,7 +54,7 @@ def map_numbers(runs: Runs) -> Numbers:
 
 
 def draw_map(axes: "Axes", numbers: Numbers) -> "Axes":
-    """Draw a line for each node that moves, its end as a dot, and a marker for each that stands."""
+    """Draw a line for each moving node, with a dot at its end, and a marker for each stationary node."""
     moving = [
         curve for curve in numbers.curves if len(set(zip(curve.x, curve.columns["y_m"], strict=True))) > 1
     ]
@@ -79,10 +79,10 @@ def draw_map(axes: "Axes", numbers: Numbers) -> "Axes":
 
 
 def _corners(points: Sequence[Point]) -> list[Point]:
-    """Return the points without those on the way between others.
+    """Return the points without intermediate points of straight lines.
 
-    Source: K. Reumann and A. P. M. Witkam, Optimizing curve segmentation in computer graphics, 1974; here a
-    way back over the same line begins with a corner, too.
+    Source: K. Reumann and A. P. M. Witkam, Optimizing curve segmentation in computer graphics, 1974; here the
+    start of a way back over the same line is a corner, too.
     """
     kept = [points[0]]
     farthest, reach_m = points[0], 0.0

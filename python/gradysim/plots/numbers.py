@@ -1,4 +1,4 @@
-"""The numbers that a figure shows: what each kind of figure computes, draws and writes as CSV."""
+"""Numbers of a figure: computed by each kind of figure, drawn, and written as CSV."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
@@ -20,7 +20,7 @@ class Curve:
     """One curve of a figure, or one set of bars.
 
     Attributes:
-        values: What distinguishes it from the others, `{"mode": "prototype"}`.
+        values: Values that distinguish the curve, `{"mode": "prototype"}`.
         columns: Its numbers, {heading: column}. The first column is the x axis.
     """
 
@@ -43,11 +43,11 @@ class Curve:
 
 @dataclass(frozen=True)
 class Numbers:
-    """All that a figure shows.
+    """Content of a figure.
 
     Attributes:
-        caption: What its numbers are, and of how many runs.
-        categories: The values of an x axis that is not a number, in their order.
+        caption: Meaning of the numbers, and the number of runs.
+        categories: Values of an x axis without numbers, in order.
     """
 
     curves: Sequence[Curve]
@@ -113,9 +113,9 @@ def _quantity(value: object) -> Quantity | None:
 def series_of(
     runs: Runs, by: Iterable[str] | None, x: str | None = None
 ) -> list[tuple[dict[str, Any], list[RunSummary]]]:
-    """Return (values of `by`, runs) of each curve: runs that differ by more than `x` are not mixed.
+    """Return (values of `by`, runs) of each curve. Runs that differ by more than `x` are not mixed.
 
-    By default `by` is all other variables that differ. Raises ConfigError if a given `by` leaves one out.
+    By default `by` is all other variables that differ. Raises ConfigError if a given `by` omits one.
     """
     variables = [name for name in runs.variables if name not in ("run", "seed", x)]
     given = by is not None
@@ -192,7 +192,7 @@ def mean_columns(groups: Sequence[Sequence[float]]) -> dict[str, list[Any]]:
 
 
 def band(curve: Curve) -> tuple[list[float], list[float]]:
-    """Return lower and upper ends of the intervals; NaN where there is none, as of a single run."""
+    """Return lower and upper ends of the intervals; NaN if there is none, as for a single run."""
     pairs = list(zip(curve.columns["mean"], curve.columns["half_width"], strict=True))
     low = [math.nan if half is None else mean - half for mean, half in pairs]
     high = [math.nan if half is None else mean + half for mean, half in pairs]

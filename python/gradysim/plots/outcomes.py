@@ -1,4 +1,4 @@
-"""What became of frames and messages: shares of each outcome as stacked bars."""
+"""Outcomes of frames and messages: the ratio of each outcome as stacked bars."""
 
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -27,22 +27,22 @@ _COLORS = {
     "below sensitivity": "#DDDDDD",
     "out of range": "#DDDDDD",
 }
-"""Of what arrived and of what was too far away; the other outcomes have the other colors."""
+"""Colors of arrived and of distant frames; the other outcomes have the other colors."""
 
 _HATCHES = ("", "////", "xxxx")
-"""Of the first, second and third round of colors."""
+"""Hatches of the first, second and third round of colors."""
 
 _WIDTH = 0.7
-"""Of the bars of a category, whose distance to the next one is 1."""
+"""Width of the bars of a category, relative to the distance of two categories."""
 
 
 def outcomes_numbers(
     runs: Runs, *, y: str, x: str | None = None, by: Iterable[str] | None = None, omit: Iterable[str] = ()
 ) -> Numbers:
-    """Return the share of each outcome for each value of `x`, the mean over runs.
+    """Return the ratio of each outcome for each value of `x`, averaged over runs.
 
-    `y` is `broadcast frames`, `unicast messages` and so on: a kind and a ledger of `fates`. `omit` names
-    outcomes to leave out, such as `below sensitivity`: shares are of the others then. Raises ConfigError.
+    `y` is `broadcast frames`, `unicast messages` and so on: a kind, and a ledger of `fates`. `omit` names
+    outcomes to leave out, such as `below sensitivity`. Ratios refer to the others. Raises ConfigError.
     """
     check_quantity(runs, y, outcome_names(runs))
     kind, _, ledger = y.rpartition(" ")
@@ -103,6 +103,6 @@ def _counts(run: RunSummary, ledger: str, kind: str, omit: set[str]) -> dict[str
 
 
 def _name_of(values: Mapping[str, object], x: str | None) -> str:
-    """Return the text below a bar: the value of `x`, and those that distinguish the bars beside it."""
+    """Return the text below a bar: the value of `x`, and the values that distinguish adjacent bars."""
     others = Curve({name: value for name, value in values.items() if name != x}, {}).label
     return "\n".join(filter(None, [str(values[x]) if x else "", others.replace(", ", "\n")]))

@@ -1,4 +1,4 @@
-"""A tracked variable over simulated time, the mean over runs."""
+"""A tracked variable over simulated time, averaged over runs."""
 
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
@@ -25,7 +25,7 @@ Vector = tuple[Sequence[float], Sequence[float]]
 
 
 def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbers:
-    """Return a tracked variable over time from `.vec` files: of each run the mean of the nodes of a group.
+    """Return a tracked variable over time from `.vec` files: for each run the mean of a group's nodes.
 
     `y` is `uavs[*] heard`, as in `gradysim means`, or `uavs[*] positionZ`. Raises ConfigError and OSError.
     """
@@ -80,7 +80,7 @@ def draw_time(axes: "Axes", numbers: Numbers) -> "Axes":
 
 
 def _mean_at(vectors: Sequence[Vector], time_s: float) -> float | None:
-    """Return the mean of what the nodes have at a time; None before the first one has a number."""
+    """Return the mean value of the nodes at a time; None before the first number."""
     values = [
         value
         for times_s, numbers in vectors

@@ -20,13 +20,14 @@ _KINDS: Final = {
 }
 _TIMER, _COMMAND = EVENT_KINDS.index("timer"), EVENT_KINDS.index("command")
 _SAMPLING_S = 0.2
-"""Interval of the positions of a vehicle whose path is not straight."""
+"""Interval between recorded positions of a vehicle whose path is not straight."""
 
 
 class PrototypeRecorder(TableRecorder):
-    """Records what the handlers of a simulation do.
+    """Records the actions of the handlers of a simulation.
 
-    It puts itself before methods of handlers and nodes, as attributes of these objects: others do not pay.
+    It replaces methods of single handlers and nodes by attributes of these objects. Others are not slowed
+    down.
     """
 
     def watch_messages(self, communication: CommunicationHandler) -> None:
@@ -34,7 +35,7 @@ class PrototypeRecorder(TableRecorder):
         communication.on_message = self._message_sent
 
     def watch_paths(self, mobility: MasslessMobilityHandler, scenario: Scenario) -> None:
-        """Record where nodes fly, from the commands that they get; vehicles of an autopilot at intervals."""
+        """Record the paths of nodes, from their commands; for vehicles with autopilots at intervals."""
         for spec in scenario.nodes:
             self.path(spec.id, spec.initial_position, spec.initial_position, 0)
         flown = {spec.id for spec in scenario.nodes if spec.autopilot is not None}
@@ -51,7 +52,7 @@ class PrototypeRecorder(TableRecorder):
         setattr(mobility, "handle_command", record_and_handle)  # noqa: B010
 
     def watch_node(self, node: Node[Any], *, is_flown: bool) -> None:
-        """Record what the protocol of a node is called for; to be called before it is made."""
+        """Record the callbacks of a node's protocol; call it before the protocol is made."""
         encapsulator = node.protocol_encapsulator
         for name, cause in (("initialize", "initialize"), ("handle_packet", "packet"), ("finish", "finish")):
             precede(encapsulator, name, lambda *_, cause=cause: self._begin(cause))
@@ -94,7 +95,7 @@ class PrototypeRecorder(TableRecorder):
 
 
 def precede(owner: Any, name: str, first: Callable[..., None]) -> None:
-    """Call `first` before each call of that method of one object: its attribute hides that of the class."""
+    """Call `first` before each call of that method of one object. Its attribute hides the class's method."""
     method = getattr(owner, name)
 
     def both(*arguments: Any) -> Any:
@@ -105,7 +106,7 @@ def precede(owner: Any, name: str, first: Callable[..., None]) -> None:
 
 
 def _text_of(command: MobilityCommand) -> str:
-    """Return a command as the engine's recorder writes it."""
+    """Return a command in the format of the engine's recorder."""
     if command.command_type == MobilityCommandType.SET_SPEED:
         return f"fly at {command.param_1:g} m/s"
     place = ", ".join(f"{value:g}" for value in (command.param_1, command.param_2, command.param_3))

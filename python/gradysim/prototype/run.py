@@ -40,10 +40,10 @@ class PrototypeRun(ScenarioRun):
 
         Args:
             scenario: One of those that `load_scenarios` returns.
-            vectors_of: Ids of the nodes whose results have numbers over time, `NodeResult.vectors`.
+            vectors_of: Ids of the nodes whose results have vectors, `NodeResult.vectors`.
             handlers: Added to those of communication, timers and mobility: assertions, a viewer, your own.
             real_time: True for the pace of the wall clock, or a factor of it; False or 0 for full speed.
-            replay: Takes what happens, such as `ReplayWriter`, which makes a page of it.
+            replay: Records the run; for example, `ReplayWriter`, which makes a page of it.
             log_level: Log lines from this level on go to standard error, with time and node, unless logging
                 has been configured.
 

@@ -36,12 +36,13 @@ def build_simulation(
 ) -> tuple[Simulator, DeliveryLedger]:
     """Return the simulation of `scenario`, ready to run, and the ledger of its messages.
 
-    `handlers` come beside those of communication, timers and mobility, and after them; `real_time` is that of
-    `SimulationConfiguration`; `recorders` record nodes, by id, over time; `replay` records the run.
+    `handlers` are added to those of communication, timers and mobility, and called after them. `real_time` is
+    the setting of `SimulationConfiguration`. `recorders` record vectors of nodes, by id. `replay` records the
+    run.
 
-    Raises ConfigError when a value is outside the simulator's range, ValueError or TypeError when one of the
-    handlers cannot be added, what the constructor of a protocol raises, and SitlError when an autopilot does
-    not start or a step of a flight failed.
+    Raises ConfigError if a value is outside the simulator's range, and ValueError or TypeError if a handler
+    cannot be added. Also raises exceptions of protocol constructors, and SitlError if an autopilot does not
+    start or a step of a flight failed.
     """
     check_protocols(scenario)
     world = "its {label} handler follows from the scenario"
@@ -87,7 +88,7 @@ def build_simulation(
 def check_scenario(scenario: Scenario) -> None:
     """Raise ConfigError, with the place in the .ini file, when a value is outside the simulator's range.
 
-    Building the simulation does the same check. Call this to check before other runs are started.
+    Building the simulation makes the same checks. Use this function to check a study before its first run.
     """
     check_protocols(scenario)
     communication_medium(scenario)
@@ -112,7 +113,7 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     if flights is None:
         configuration.update_rate = update_rate_s(scenario.nodes)
         mobility = (IdleSkippingMobilityHandler if skips_idle else MasslessMobilityHandler)(configuration)
-    else:  # autopilots fly on every 10 ms, in both modes
+    else:  # autopilots fly in steps of 10 ms, in both modes
         mobility = AutopilotMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
@@ -140,14 +141,14 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
     stationary = _stands_still(spec)
-    numbers = {"telemetry_interval": UPDATE_S}  # the default, whatever interval other nodes have
+    numbers = {"telemetry_interval": UPDATE_S}  # the default, for any interval of other nodes
     mobility.configure_node(spec.id, stationary=stationary, **numbers)
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
         if (setting := spec.mobility.get(field)) is not None:
             numbers[argument] = float(setting.value)
             try:
                 mobility.configure_node(spec.id, stationary=stationary, **numbers)
-            except ValueError as error:  # those before it are right
+            except ValueError as error:  # the earlier ones are valid
                 raise ConfigError.at(setting.source, str(error)) from error
 
 
@@ -168,7 +169,7 @@ _PS_PER_S = 1e12
 def record_node(
     node: Node[Any], recorder: NodeRecorder | None, replay: PrototypeRecorder | None = None
 ) -> None:
-    """Have a node recorded. To be called before its protocol is made: it may keep `tracked_variables`."""
+    """Record a node. Call it before the protocol is made, which may keep `tracked_variables`."""
     provider: IProvider = node.protocol_encapsulator.provider
     is_replayed = replay is not None and replay.is_recorded(node.id)
     if recorder is None and not is_replayed:

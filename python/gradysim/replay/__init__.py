@@ -1,7 +1,7 @@
-"""Replays: everything that a run did, in one HTML file that shows itself in any browser.
+"""Replays: a complete record of a run, in one HTML file that any browser shows.
 
-A run is recorded in chunks of at most 60 s of simulated time. `tables` says what a chunk has, `chunk` how it
-is packed, `file` how chunks lie in the HTML file, and `read_replay` gives the tables back.
+A run is recorded in chunks of at most 60 s of simulated time. `tables` declares the content of a chunk,
+`chunk` packs it, and `file` writes chunks into the HTML file. `read_replay` returns the tables.
 """
 
 from gradysim.replay.reader import Replay, read_replay

@@ -1,12 +1,12 @@
-"""How a chunk of a replay is packed.
+"""Encoding of a chunk of a replay.
 
     4 bytes    length of the header, little-endian
     header     JSON, see `Chunk.header`
     columns    one after the other, in the order of the header
 
-A column is an array of little-endian numbers: differences if it is declared so, then first the first byte of
-each number, then the second one, and so on, compressed with zlib. Bytes of one place are alike, so that this
-compresses much better than the numbers one after the other.
+A column is an array of little-endian numbers, or of their differences if it is declared so. The first bytes
+of all numbers come first, then the second ones, and so on, compressed with zlib. Bytes at the same place are
+similar, so that this compresses much better.
 """
 
 import json
@@ -31,12 +31,12 @@ class RawChunk:
     """A chunk before it is packed.
 
     Attributes:
-        start_ns: Where it begins: the end of the last one.
-        end_ns: Where it ends.
-        strings: Texts that columns refer to.
+        start_ns: Start of the chunk: the end of the last one.
+        end_ns: End of the chunk.
+        strings: Strings that columns refer to.
         columns: {table: {column: little-endian numbers, differences where the column is declared so}}.
-        density: How many frames and losses there were over time.
-        outcomes: How many receptions of each outcome there were at each node.
+        density: Number of frames and losses over time.
+        outcomes: Number of receptions of each outcome at each node.
     """
 
     start_ns: int
@@ -48,12 +48,12 @@ class RawChunk:
 
 
 class Density(TypedDict):
-    """Counts of successive intervals from the start of a chunk on; what is earlier is in the first one.
+    """Counts of successive intervals from the start of a chunk on. The first one includes earlier events.
 
     Attributes:
         bin_ns: Length of an interval.
-        frames: How many frames began.
-        lost: How many receptions began that were lost.
+        frames: Number of frames that started.
+        lost: Number of lost receptions that started.
     """
 
     bin_ns: int
@@ -66,8 +66,8 @@ class Outcomes(TypedDict):
 
     Attributes:
         node: Id of the receiver.
-        outcome: By number.
-        count: How often.
+        outcome: Number of the outcome.
+        count: Number of receptions.
     """
 
     node: Sequence[int]
@@ -77,12 +77,12 @@ class Outcomes(TypedDict):
 
 @dataclass
 class Chunk:
-    """A chunk that was unpacked.
+    """A decoded chunk.
 
     Attributes:
-        start_ns: Where it begins. Frames whose last reception ended later are in it, too.
-        end_ns: Where it ends.
-        strings: Texts that columns refer to.
+        start_ns: Start of the chunk. It includes frames whose last reception ended later.
+        end_ns: End of the chunk.
+        strings: Strings that columns refer to.
         tables: {table: {column: its values}}.
     """
 
@@ -121,14 +121,14 @@ def pack(chunk: RawChunk) -> bytes:
 class Sent(TypedDict):
     """Sums of the frames of a chunk, a row for each sender.
 
-    Frames that have an outcome at their destination alone have a row for each destination.
+    Frames with an outcome only at their destination have a row for each destination.
 
     Attributes:
         node: Id of the sender.
         destination: Id of the only receiver, or `BROADCAST`.
-        frames: How many it sent.
-        receptions: How many outcomes these have, those included that were not noticed.
-        unnoticed: How many were not noticed.
+        frames: Number of sent frames.
+        receptions: Number of their outcomes, including those that were not noticed.
+        unnoticed: Number of those that were not noticed.
     """
 
     node: Sequence[int]
@@ -179,7 +179,7 @@ def unpack(data: bytes) -> Chunk:
 
 
 def unpacked(chunk: RawChunk) -> Chunk:
-    """Return a chunk as if it had been packed and unpacked."""
+    """Return a chunk as if it had been encoded and decoded."""
     tables = {
         table: {column.name: _numbers(column, chunk.columns[table][column.name]) for column in columns}
         for table, columns in TABLES.items()
@@ -188,7 +188,7 @@ def unpacked(chunk: RawChunk) -> Chunk:
 
 
 def raw(column: Column, values: Sequence[int] | Sequence[float]) -> bytes:
-    """Return the numbers of a column as `RawChunk` has them."""
+    """Return the numbers of a column in the format of `RawChunk`."""
     if column.delta:
         values = [value - before for value, before in zip(values, [0, *values], strict=False)]
     return _little_endian(array(ARRAY_TYPES[column.type], values)).tobytes()

@@ -12,10 +12,10 @@ from gradysim.scenario.scenario import Scenario
 def describe(
     scenario: Scenario, mode: str, recorded: frozenset[int] | None, ranges_m: Sequence[float | None]
 ) -> dict[str, Any]:
-    """Return what the page shows of a scenario: its nodes, its obstacles, where it comes from.
+    """Return the description of a scenario for the page: its nodes, its obstacles, its origin.
 
-    `recorded` are the ids of the nodes at which all is recorded; None for all. `ranges_m` are the distances
-    at which half of the messages of each node arrive without interference; None where that is not known.
+    `recorded` are the ids of the nodes that are recorded in full; None for all. `ranges_m` are the distances
+    at which half of the messages of each node arrive without interference; None if unknown.
     """
     return {
         "file": scenario.file.name,
@@ -48,7 +48,7 @@ def describe(
 def _text_of(scenario: Scenario) -> str:
     try:
         return scenario.file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError):  # it was read before, so this is about a text for people only
+    except (OSError, UnicodeDecodeError):  # it was readable before, and the text is only shown
         return ""
 
 
@@ -63,5 +63,5 @@ def _obstacle(obstacle: ObstacleSpec) -> Mapping[str, Any]:
 
 
 def recorded_nodes(scenario: Scenario, replay: ReplaySink) -> frozenset[int]:
-    """Return the ids of the nodes at which `replay` wants all recorded."""
+    """Return the ids of the nodes that `replay` records in full."""
     return frozenset(range(len(scenario.nodes))) if replay.recorded is None else replay.recorded

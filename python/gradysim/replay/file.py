@@ -1,7 +1,7 @@
-"""How a replay lies in its HTML file: the page, what is known of the run, then the chunks as they come.
+"""Format of the HTML file of a replay: the page, the description of the run, then the chunks.
 
-Each chunk is an element of its own, so that the file of a run that was killed has all chunks up to the last
-one, and a browser shows them.
+Each chunk is a separate element. So the file of a killed run has all chunks up to the last one, and a browser
+shows them.
 """
 
 import base64
@@ -14,7 +14,7 @@ from typing import IO, Any
 from gradysim.viewer.page import json_text, page
 
 FORMAT = 1
-"""Version of the format. Readers take no other one."""
+"""Version of the format. Readers reject other versions."""
 
 _RUN = '<script type="application/json" id="gradysim-run">'
 _CHUNK = '<script type="text/plain" class="gradysim-chunk">'
@@ -23,12 +23,12 @@ _CLOSE = "</script>\n"
 
 
 class ReplayFile:
-    """The HTML file of a run, while it is written."""
+    """The HTML file of a run in progress."""
 
     def __init__(self, path: Path, run: Mapping[str, Any]) -> None:
-        """Create the file. `run` is what is known before the run, see `describe`.
+        """Create the file. `run` is the description of the run; see `describe`.
 
-        Raises OSError if that cannot be done.
+        Raises OSError if the file cannot be created.
         """
         self.path = path
         self._file: IO[bytes] = path.open("wb")
@@ -36,11 +36,11 @@ class ReplayFile:
         self._write(head + _RUN + json_text({"format": FORMAT, **run}) + _CLOSE + tail)
 
     def add(self, chunk: bytes) -> None:
-        """Append a packed chunk. Raises OSError, as when the disk is full."""
+        """Append an encoded chunk. Raises OSError; for example, if the disk is full."""
         self._write(_CHUNK + base64.b64encode(chunk).decode() + _CLOSE)
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Say how the run ended, and close the file."""
+        """Write how the run ended, and close the file."""
         self._write(_END + json_text(end) + _CLOSE)
         self._file.close()
 
@@ -50,7 +50,7 @@ class ReplayFile:
 
 
 def read_parts(path: Path) -> tuple[dict[str, Any], Iterator[bytes], dict[str, Any] | None]:
-    """Return the description of the run, its packed chunks, and how the run ended; None if it was killed.
+    """Return the description of the run, its encoded chunks, and how it ended; None if it was killed.
 
     Raises ValueError if the file is not a replay, OSError if it cannot be read.
     """

@@ -1,10 +1,10 @@
-"""Shows a run while it goes on: the page of replays, from a server, with chunks as they come.
+"""Shows a running simulation: a server with the page of replays, and chunks as they are made.
 
     GET /?token=T        the page
     /chunks?token=T      a WebSocket: {"run": ...}, then chunks as binary messages, then {"end": ...}
-    from the page        {"time_s": what it shows, "speed": simulated seconds for each second}
+    from the page        {"time_s": displayed time, "speed": simulated seconds per second}
 
-Only pages of this server, and who knows its token, get anything.
+The server rejects pages of other servers, and clients without its token.
 """
 
 import contextlib
@@ -37,16 +37,16 @@ if TYPE_CHECKING:
 CHUNK_S = 0.1
 """Wall time between two chunks, in seconds."""
 LOOKAHEAD_S = 2.0
-"""How far the run may be ahead of the fastest viewer, in seconds of wall time at its speed."""
+"""Limit of the run's lead over the fastest viewer, in seconds of wall time at the viewer's speed."""
 
 
 class LiveView:
     """A `ReplaySink` for viewers. The run waits for the fastest viewer, if there is one.
 
     Attributes:
-        recorded: None: all is recorded at all nodes.
-        recorded_s: The end of the record, in seconds of simulated time.
-        clocks: Up to where each viewer wants the run to go, in seconds of simulated time.
+        recorded: None: all nodes are recorded in full.
+        recorded_s: End of the record, in seconds of simulated time.
+        clocks: Requested end of the record for each viewer, in seconds of simulated time.
     """
 
     recorded: frozenset[int] | None = None
@@ -85,12 +85,12 @@ class LiveView:
 
     @property
     def address(self) -> str:
-        """Where a browser finds the page."""
+        """Address of the page for a browser."""
         return f"http://{self._host.name}:{self._port}/?token={self._token}"
 
     @property
     def viewers(self) -> int:
-        """How many viewers there are."""
+        """Number of viewers."""
         return len(self._viewers)
 
     def wait_for_viewer(self) -> None:
@@ -100,17 +100,17 @@ class LiveView:
                 self._news.wait(0.2)  # with a timeout Ctrl-C gets through on every system
 
     def begin(self, run: Mapping[str, Any]) -> None:
-        """Take what is known before the run."""
+        """Store the description of the run."""
         with self._news:
             self._run = run
             self._news.notify_all()
 
     def wants_chunk(self) -> bool:
-        """Return whether it is time to show more."""
+        """Return whether it is time for another chunk."""
         return time.monotonic() - self._cut_at >= CHUNK_S
 
     def add(self, chunk: RawChunk) -> None:
-        """Show a chunk, and wait as long as viewers are far behind it."""
+        """Show a chunk, and wait while viewers are far behind it."""
         data = pack(chunk)
         with self._news:
             if self._is_stopped:  # there are no viewers any more
@@ -125,7 +125,7 @@ class LiveView:
         self._cut_at = time.monotonic()
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Show how the run ended. The server goes on until `stop`."""
+        """Show how the run ended. The server continues until `stop`."""
         with self._news:
             self._end = end
             self._news.notify_all()
@@ -137,12 +137,12 @@ class LiveView:
             self._news.notify_all()
         for viewer in list(self._viewers):
             with contextlib.suppress(OSError):
-                viewer.socket.shutdown(socket.SHUT_RDWR)  # also of one that never reads
+                viewer.socket.shutdown(socket.SHUT_RDWR)  # also for one that never reads
         self._server.shutdown()
         self._history.close()
 
     def _answer(self, connection: "ServerConnection", request: "Request") -> "Response | None":
-        """Answer a request that is not for the WebSocket, and all that is not allowed."""
+        """Answer HTTP requests, and reject those that are not allowed."""
         token = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
         knows_token = secrets.compare_digest(token.encode(), self._token.encode())
         allowed = knows_token and is_allowed(request, self._host.accepted)
@@ -160,7 +160,7 @@ class LiveView:
         try:
             for message in viewer:
                 self._take_clock(viewer, message)
-        except (ConnectionClosed, ValueError):  # it left, or what it says makes no sense
+        except (ConnectionClosed, ValueError):  # it left, or its message is malformed
             pass
         finally:
             with self._news:
@@ -169,7 +169,7 @@ class LiveView:
                 self._news.notify_all()
 
     def _take_clock(self, viewer: "ServerConnection", message: str | bytes) -> None:
-        """Note how far a viewer has seen. Raises ValueError for anything else."""
+        """Store the displayed time of a viewer. Raises ValueError for other messages."""
         content = json.loads(message)
         if not isinstance(content, dict):
             raise ValueError("expected an object")
@@ -180,7 +180,7 @@ class LiveView:
                 self._news.notify_all()
 
     def _tell(self, viewer: "ServerConnection") -> None:
-        """Send a viewer all there is, and what comes."""
+        """Send a viewer all chunks, and new ones as they come."""
         from websockets.exceptions import ConnectionClosed
 
         told, has_run = 0, False

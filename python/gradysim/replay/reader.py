@@ -1,4 +1,4 @@
-"""Reads the tables of a replay."""
+"""Reader of replays."""
 
 from array import array
 from bisect import bisect_right
@@ -16,12 +16,12 @@ _NS_PER_S = 1e9
 
 
 class Reception(NamedTuple):
-    """What became of a frame at a receiver that noticed it.
+    """Outcome of a frame at a receiver that noticed it.
 
     Attributes:
         frame: Row of the table `frames` of the whole run.
         receiver: Id of a node.
-        outcome: Its name, see `OUTCOMES`.
+        outcome: Name of the outcome, see `OUTCOMES`.
     """
 
     frame: int
@@ -34,10 +34,10 @@ class Replay:
     """A recorded run.
 
     Attributes:
-        run: What was known before it: `config`, `run`, `mode`, `seed`, `duration_s`, `nodes` with `id`,
+        run: Description of the run: `config`, `run`, `mode`, `seed`, `duration_s`, `nodes` with `id`,
             `name` and `protocol`, and so on.
-        end: How it ended, `time_s` and `complete`; None if its process was killed.
-        chunks: Its parts, by time.
+        end: End of the run, `time_s` and `complete`; None if its process was killed.
+        chunks: Its chunks, by time.
     """
 
     run: Mapping[str, Any]
@@ -46,14 +46,15 @@ class Replay:
 
     @property
     def end_s(self) -> float:
-        """Where the record ends, in seconds."""
+        """End of the record, in seconds."""
         return self.chunks[-1].end_ns / _NS_PER_S if self.chunks else 0.0
 
     def table(self, name: str) -> "dict[str, Values | list[str]]":
         """Return a table of the whole run as {column: values}.
 
-        `frame` numbers frames through the run, and texts are strings. The columns are declared in
-        `gradysim.replay.tables`, but for `receptions`, which has each reception, its outcome by number.
+        `frame` numbers frames through the whole run, and strings are decoded. The columns are declared in
+        `gradysim.replay.tables`. Only `receptions` differs: it has each reception, with the number of its
+        outcome.
 
         Raises KeyError for a name that no table has.
         """
@@ -76,7 +77,7 @@ class Replay:
         return columns
 
     def receptions(self) -> Iterator[Reception]:
-        """Give each reception that a receiver noticed, in the order of frames, then of receivers."""
+        """Yield each reception that a receiver noticed, by frame, then by receiver."""
         first = 0
         for chunk in self.chunks:
             for frame, receiver, outcome in receptions_of(chunk):
@@ -84,7 +85,7 @@ class Replay:
             first += len(chunk.tables["frames"]["node"])
 
     def outcomes(self) -> dict[str, int]:
-        """Count the receptions by outcome: those of the result of the run but for `in_air`."""
+        """Count the receptions by outcome, as in the result of the run, without `in_air`."""
         counts: Counter[str] = Counter(reception.outcome for reception in self.receptions())
         unnoticed = sum(sum(chunk.tables["frames"]["unnoticed"]) for chunk in self.chunks)
         if unnoticed:
@@ -92,7 +93,10 @@ class Replay:
         return dict(counts)
 
     def positions(self, time_s: float) -> list[tuple[float, float, float]]:
-        """Return where each node is at a time, in meters, by id. Raises ValueError before the first chunk."""
+        """Return the position of each node at a time, in meters, by id.
+
+        Raises ValueError before the first chunk.
+        """
         if not self.chunks or time_s < 0:
             raise ValueError(f"no position at {time_s} s: expected a time from 0 s to {self.end_s} s")
         time_ns = time_s * _NS_PER_S
@@ -125,7 +129,7 @@ class Replay:
 
 
 def read_replay(path: str | Path) -> Replay:
-    """Read the file that `gradysim run --replay` wrote, also of a run that was killed.
+    """Read a file of `gradysim run --replay`, also of a killed run.
 
     Raises ValueError if the file is not a replay, OSError if it cannot be read.
     """
@@ -134,7 +138,7 @@ def read_replay(path: str | Path) -> Replay:
 
 
 def receptions_of(chunk: Chunk) -> Iterator[tuple[int, int, int]]:
-    """Give (frame, receiver, outcome) of a chunk: its table has the changes only."""
+    """Yield (frame, receiver, outcome) of a chunk. Its table contains only changes."""
     frames, changes = chunk.tables["frames"], chunk.tables["receptions"]
     rows = zip(changes["frame"], changes["receiver"], changes["outcome"], strict=True)
     change = next(rows, None)

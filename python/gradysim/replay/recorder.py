@@ -1,4 +1,4 @@
-"""The recorder of prototype mode. That of the engine is in C++ and writes the same tables."""
+"""Recorder of prototype mode. The engine's recorder is in C++ and writes the same tables."""
 
 import math
 from collections import Counter, defaultdict
@@ -20,11 +20,11 @@ class TableRecorder:
     """Records a run as the tables of a replay, in chunks of at most 60 s."""
 
     def __init__(self, now_s: Callable[[], float], recorded: Collection[int]) -> None:
-        """Begin to record.
+        """Start to record.
 
         Args:
             now_s: Returns the simulated time in seconds.
-            recorded: Ids of the nodes at which all is recorded; of the others there are only paths.
+            recorded: Ids of the nodes that are recorded in full; other nodes have only paths.
         """
         self._now_s = now_s
         self._recorded = recorded
@@ -35,7 +35,7 @@ class TableRecorder:
         self._begin_chunk()
 
     def is_recorded(self, node: int) -> bool:
-        """Return whether all that happens at that node is recorded."""
+        """Return whether a node is recorded in full."""
         return node in self._recorded
 
     def path(self, node: int, start: Position, target: Position, speed_mps: float) -> None:
@@ -47,14 +47,14 @@ class TableRecorder:
         self._add_leg(node, self._now_ns(), round(length_m / speed_mps * _NS_PER_S), start, target)
 
     def sampled(self, node: int, position: Position, interval_s: float) -> None:
-        """Record where a node is, if its last position was recorded at least `interval_s` ago."""
+        """Record the position of a node, if its last one was recorded at least `interval_s` ago."""
         start_ns, duration_ns, _, last = self._legs[node]
         since_ns = start_ns + duration_ns
         if self._now_ns() - since_ns >= interval_s * _NS_PER_S:
             self._add_leg(node, since_ns, self._now_ns() - since_ns, last, position)
 
     def variable_set(self, node: int, name: object, value: object) -> None:
-        """Record the new value of a tracked variable, None if it was removed."""
+        """Record the new value of a tracked variable; None if it was removed."""
         if node not in self._recorded:
             return
         number = None if isinstance(value, bool) else as_float(value)
@@ -87,10 +87,10 @@ class TableRecorder:
         Args:
             sender: Id of the node.
             destination: Id of a node, or `BROADCAST`.
-            kind: By number, see `FRAME_KINDS`.
+            kind: Number of the kind, see `FRAME_KINDS`.
             size: Bytes.
-            delay_s: Until it arrives; s.
-            outcomes: {receiver in range: outcome by number}.
+            delay_s: Delay until it arrives; s.
+            outcomes: {receiver in range: number of the outcome}.
             out_of_range: Number of receivers that are not in range.
         """
         kept = outcomes
@@ -158,7 +158,7 @@ class TableRecorder:
         self._begin_chunk()
 
     def chunks(self, *, cut: bool, last: bool) -> Iterator[RawChunk]:
-        """Give the chunks that are complete; `cut` ends the one that grows, `last` the record."""
+        """Return the complete chunks; `cut` ends the current one, `last` the record."""
         if cut or last:
             self.close_chunk()
         chunks, self._chunks = self._chunks, []
@@ -192,7 +192,7 @@ class TableRecorder:
             columns[name].append(value)
 
     def close_if_long(self) -> None:
-        """End the chunk if it is as long as chunks become; to be called before what happens is recorded."""
+        """End the chunk if it has the maximum length; call it before an event is recorded."""
         if self._now_ns() - self._start_ns >= LONGEST_CHUNK_NS:
             self.close_chunk()
 

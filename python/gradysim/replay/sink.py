@@ -1,4 +1,4 @@
-"""Where the chunks of a run go while it runs."""
+"""Destination of the chunks of a running simulation."""
 
 from collections import deque
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,29 +11,29 @@ from gradysim.replay.file import ReplayFile
 
 
 class ReplaySink(Protocol):
-    """Takes a run as it goes on.
+    """Takes the record of a run.
 
     Attributes:
-        recorded: Ids of the nodes at which all is recorded, or None for all nodes.
+        recorded: Ids of the nodes that are recorded in full, or None for all nodes.
     """
 
     recorded: frozenset[int] | None
 
     def begin(self, run: Mapping[str, Any]) -> None:
-        """Take what is known before the run."""
+        """Take the description of the run."""
 
     def wants_chunk(self) -> bool:
         """Return whether a chunk should end now, before its 60 s of simulated time."""
 
     def add(self, chunk: RawChunk) -> None:
-        """Take a chunk. May wait."""
+        """Take a chunk. This may block."""
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Take how the run ended, also after a failure: `time_s`, and whether it is `complete`."""
+        """Take the end of the run, also after a failure: `time_s`, and whether it is `complete`."""
 
 
 class Sinks:
-    """Passes a run on to several sinks; each gets the nodes that any of them wants recorded."""
+    """Forwards a run to several sinks; each gets the nodes that any of them records."""
 
     def __init__(self, sinks: Sequence[ReplaySink]) -> None:
         self._sinks = sinks
@@ -43,21 +43,21 @@ class Sinks:
         )
 
     def begin(self, run: Mapping[str, Any]) -> None:
-        """Pass it on."""
+        """Forward it."""
         for sink in self._sinks:
             sink.begin(run)
 
     def wants_chunk(self) -> bool:
-        """Return whether any of them wants one."""
+        """Return whether any sink wants a chunk."""
         return any(sink.wants_chunk() for sink in self._sinks)
 
     def add(self, chunk: RawChunk) -> None:
-        """Pass it on."""
+        """Forward it."""
         for sink in self._sinks:
             sink.add(chunk)
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Pass it on."""
+        """Forward it."""
         for sink in self._sinks:
             sink.close(end)
 
@@ -66,10 +66,10 @@ _MOST_WAITING = 2
 
 
 class ReplayWriter:
-    """Writes a run to an HTML file, packed by a thread: zlib lets the simulation go on meanwhile."""
+    """Writes a run to an HTML file. A thread encodes chunks, since zlib releases the interpreter lock."""
 
     def __init__(self, path: str | Path, recorded: Iterable[int] | None = None) -> None:
-        """Create the file, empty until the run begins. Raises OSError if that cannot be done."""
+        """Create an empty file. Raises OSError if it cannot be created."""
         self.recorded = None if recorded is None else frozenset(recorded)
         self._path = Path(path)
         self._path.touch()
@@ -78,15 +78,15 @@ class ReplayWriter:
         self._packed: deque[Future[bytes]] = deque()
 
     def begin(self, run: Mapping[str, Any]) -> None:
-        """Write the page and what is known of the run."""
+        """Write the page and the description of the run."""
         self._file = ReplayFile(self._path, run)
 
     def wants_chunk(self) -> bool:
-        """Return False: the longer a chunk, the better it is compressed."""
+        """Return False, since longer chunks are compressed better."""
         return False
 
     def add(self, chunk: RawChunk) -> None:
-        """Write a chunk, and wait if earlier ones are not written yet. Raises OSError if the disk is full."""
+        """Write a chunk, and wait for earlier ones. Raises OSError if the disk is full."""
         self._packed.append(self._packer.submit(pack, chunk))
         self._write(_MOST_WAITING)
 

@@ -1,6 +1,6 @@
 """The tables of a replay, each column declared once.
 
-Times are nanoseconds of simulated time, nodes are ids, positions are meters. A text is an index of the
+Times are nanoseconds of simulated time, nodes are ids, positions are meters. A string is an index of the
 strings of its chunk; string 0 is "". `frame` is a row of the table `frames` of the same chunk.
 """
 
@@ -25,8 +25,8 @@ class Column:
 
     Attributes:
         name: Its name in the table.
-        type: Of its values.
-        delta: Whether the file has the differences of successive values, which never fall.
+        type: Type of its values.
+        delta: Whether the file has the differences of successive values, which never decrease.
     """
 
     name: str
@@ -35,13 +35,13 @@ class Column:
 
 
 BROADCAST: Final = 0xFFFFFFFF
-"""The destination of a frame for all."""
+"""The destination of a frame to all nodes."""
 
 BELOW_SENSITIVITY: Final = 255
-"""The outcome of a row of `receptions` whose receiver no longer notices the frames of this sender."""
+"""The outcome of a row of `receptions` whose receiver does not notice further frames of this sender."""
 
 NO_POWER: Final = -32768
-"""In a column of powers: not known, or no interference."""
+"""In a column of powers: unknown, or no interference."""
 
 FRAME_KINDS: Final = ("broadcast", "unicast", "ack", "rts", "cts")
 
@@ -59,7 +59,7 @@ OUTCOMES: Final = (
     "out_of_range",
     "lost",
 )
-"""Names of the outcomes of a reception, by number. The last two are of prototype mode."""
+"""Names of the outcomes of a reception, by number. The last two occur only in prototype mode."""
 
 NOT_LOST: Final = frozenset({"delivered", "below_sensitivity", "in_air", "out_of_range"})
 """Outcomes that are not losses."""
@@ -79,12 +79,12 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
         Column("destination", "u32"),
         Column("bytes", "u32"),
         Column("bitrate_bps", "u32"),
-        Column("cause", "u32"),  # text: the callback that sent it
-        Column("receptions", "u32"),  # how many receivers noticed it
-        Column("unnoticed", "u32"),  # how many did not: below their sensitivity, or out of range
+        Column("cause", "u32"),  # string: the callback that sent it
+        Column("receptions", "u32"),  # number of receivers that noticed it
+        Column("unnoticed", "u32"),  # number of those that did not: below their sensitivity, or out of range
     ),
-    # Outcomes at receivers, where they differ from those of the last frame of the same sender and interface
-    # in this chunk. Before the first one no receiver notices a frame.
+    # Outcomes at receivers, if they differ from those of the last frame of the same sender and interface
+    # in this chunk. Before the first row no receiver notices a frame.
     "receptions": (
         Column("frame", "u32", delta=True),
         Column("receiver", "u32"),
@@ -103,7 +103,8 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
         Column("receiver", "u32"),
         Column("node", "u32"),
     ),
-    # Straight legs at constant speed; after its last leg a node stands. A chunk begins with one of each node.
+    # Straight legs at constant speed; after its last leg a node is stationary. A chunk starts with one of
+    # each node.
     "legs": (
         Column("time_ns", "u64"),
         Column("duration_ns", "u64"),
@@ -119,8 +120,8 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
     "variables": (
         Column("time_ns", "u64", delta=True),
         Column("node", "u32"),
-        Column("name", "u32"),  # text
-        Column("value", "f64"),  # NaN for what is not a number
+        Column("name", "u32"),  # string
+        Column("value", "f64"),  # NaN if it is not a number
         Column("text", "u32"),  # the value if it is not a number
     ),
     "events": (
@@ -133,5 +134,5 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
 
 
 def text_of_value(value: object) -> str:
-    """Return the text of a tracked variable that is not a number."""
+    """Return the string for a tracked variable that is not a number."""
     return value if isinstance(value, str) else json.dumps(plain_value(value))

@@ -1,4 +1,4 @@
-"""Prints what happens at nodes, one line for each event, in the order of their times.
+"""Prints the events at nodes, one line for each event, in the order of their times.
 
       1.042371  nodes[0]  timer    greet
       1.042871  nodes[0]  tx       #7 broadcast to all: delivered at 2 of 3, 12 B, 1 Mbps, by timer greet
@@ -23,17 +23,17 @@ _CHUNK_S = 0.1
 """Wall time between two chunks, in seconds."""
 
 _HELD_BACK_NS = 200_000_000
-"""A frame is recorded when it has ended, at most this long after its start: 25 kB at 1 Mbps."""
+"""A frame is recorded at its end, at most this long after its start: 25 kB at 1 Mbps."""
 
 _WIDEST_NAME = 20
 _TRACED_EVENTS = ("timer", "command")
 
-# The order of lines of one instant. A reception comes right after its frame if the frame takes no time.
+# The order of lines of one instant. A reception follows its frame directly if the frame takes no time.
 _TIMER, _FRAME, _RECEPTION, _COMMAND, _VARIABLE, _ANSWER = range(6)
 
 
 def text_line(time_s: float, node: str, event: str, details: str, width: int) -> str:
-    """Return a line of the trace, or of the log. `width` is that of the column of nodes."""
+    """Return a line of the trace, or of the log. `width` is the width of the column of nodes."""
     return f"{time_s:11.6f}  {node:{width}}  {event:7}  {details}".rstrip()
 
 
@@ -69,7 +69,7 @@ class Trace:
         self._printed_at = time.monotonic()
 
     def begin(self, run: Mapping[str, Any]) -> None:
-        """Take the names of the nodes."""
+        """Store the names of the nodes."""
         self._names: Sequence[str] = [node["name"] for node in run["nodes"]]
         self._width = name_width(self._names)
         self._unnoticed = "out_of_range" if run["mode"] == "prototype" else "below_sensitivity"
@@ -79,7 +79,7 @@ class Trace:
         return time.monotonic() - self._printed_at >= _CHUNK_S
 
     def add(self, chunk: RawChunk) -> None:
-        """Print the lines up to a little before the end of the chunk."""
+        """Print the lines up to shortly before the end of the chunk."""
         content = unpacked(chunk)
         self._lines.extend(self._lines_of_frames(content))
         self._lines.extend(self._lines_of_events(content))
@@ -100,7 +100,7 @@ class Trace:
         ]
         try:
             print("".join(f"{text}\n" for text in texts), end="", flush=True)
-        except BrokenPipeError:  # the run goes on; the command reports it
+        except BrokenPipeError:  # the run continues; the command reports it
             self._nodes = frozenset()
 
     def _lines_of_frames(self, chunk: Chunk) -> Iterator[_Line]:
@@ -143,7 +143,7 @@ class Trace:
         self._frames += len(frames["node"])
 
     def _sent(self, chunk: Chunk, frame: int, outcomes: Mapping[int, int]) -> str:
-        """Return what the line of a sent frame says after `to`."""
+        """Return the part after `to` of a sent frame's line."""
         frames = chunk.tables["frames"]
         destination = frames["destination"][frame]
         bitrate_bps, cause = frames["bitrate_bps"][frame], chunk.strings[frames["cause"][frame]]
@@ -161,7 +161,7 @@ class Trace:
         return f"{to}: {', '.join(parts)}"
 
     def _loss(self, loss: "_Loss | None") -> str:
-        """Return how a frame was lost that a receiver was locked on to."""
+        """Return the reason why a receiver lost a frame that it was locked on to."""
         if loss is None:
             return ""
         text = f", {loss.power_dbm:.1f} dBm"
@@ -197,7 +197,7 @@ class _Loss(NamedTuple):
 
 
 def _losses(chunk: Chunk) -> dict[tuple[int, int], _Loss]:
-    """Return {(frame, receiver): how it was lost}."""
+    """Return {(frame, receiver): reason of the loss}."""
     columns = ("frame", "receiver", "power_cdbm", "interference_cdbm")
     table = chunk.tables["losses"]
     losses = {

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 CONFIDENCE = 0.95
-"""Share of such intervals that contain the true mean."""
+"""Ratio of such intervals that contain the true mean."""
 
 _LARGEST = 1000.0
-"""Upper bound of all quantiles: that of one degree of freedom is 12.7."""
+"""Upper bound of all quantiles. The quantile of one degree of freedom is 12.7."""
 
 _HUGE, _SMALLER = 2.0**900, 2.0**-100
 """Above `_HUGE`, deviations may overflow a float; such values are scaled by `_SMALLER`."""

@@ -9,7 +9,7 @@ from typing import Any
 from gradysim.results.quantity import Average, Histogram, Scalar, recorded
 
 QUANTILES = (0.5, 0.9, 0.95, 0.99)
-"""Those that JSON objects have."""
+"""Quantiles in JSON objects."""
 
 _NARROWEST_S = 1e-12
 """Width of the bin of a single value, so that it has a density."""
@@ -48,7 +48,7 @@ class Delays:
         return math.sqrt(max(0.0, squares) / (self.count - 1))
 
     def quantile_s(self, share: float) -> float:
-        """Return the delay that `share` of all, 0 to 1, do not exceed.
+        """Return the delay that the ratio `share` of all, 0 to 1, does not exceed.
 
         It is exact to 3 % in integrated mode, the width of the bins, and exact in prototype mode.
         """
@@ -64,7 +64,7 @@ class Delays:
         return min(max(time_s, self.min_s), self.max_s)
 
     def to_json_object(self) -> dict[str, object]:
-        """Return what JSON objects have of them."""
+        """Return their JSON object."""
         return {
             "count": self.count,
             "mean_s": self.mean_s,
@@ -76,7 +76,7 @@ class Delays:
         }
 
     def _cumulative(self) -> dict[str, list[float]]:
-        """Return times, and the share of the delays that do not exceed each: exact at these times."""
+        """Return times, and the ratio of the delays that do not exceed each: exact at these times."""
         counts = accumulate(count for _, _, count in self.bins)
         return {
             "time_s": [self._between_extremes(end) for _, end, _ in self.bins],
@@ -85,7 +85,7 @@ class Delays:
 
 
 def constant_delays(counts: Mapping[float, int]) -> Delays:
-    """Return the delays of {delay in s: count}, of at least one message."""
+    """Return the delays of {delay in s: count}, with at least one message."""
     met = sorted((delay_s, count) for delay_s, count in counts.items() if count)
     return Delays(
         count=sum(count for _, count in met),
@@ -113,7 +113,7 @@ def delay_histograms(delays: Mapping[str, Delays], network: str) -> Iterator[His
 
 
 def delay_averages(delays: Mapping[str, Any]) -> Iterator[Average]:
-    """Yield `unicast messages delay in s` and so on, of the delays in a JSON object."""
+    """Yield `unicast messages delay in s` and so on, from the delays in a JSON object."""
     for kind, each in delays.items():
         yield Average(f"{kind} messages delay in s", each["mean_s"])
 

@@ -1,4 +1,4 @@
-"""Files that are replaced as a whole, also if the process is killed or the power fails meanwhile.
+"""Files that are replaced as a whole, also if the process is killed or the power fails.
 
 A new file has the id of its process at the end of its name until it is complete and on the disk.
 """
@@ -15,7 +15,7 @@ LONGEST_PID = 2**22
 
 _UNFINISHED = re.compile(r"(?P<name>.+\.(json|sca|vec|pcap|html))\.\d{1,7}")
 _CANNOT_SYNC = (errno.EINVAL, errno.ENOTSUP)
-"""What some file systems answer for a directory."""
+"""Errors of file systems that cannot sync a directory."""
 
 
 def unfinished_file(path: Path, pid: int | None = None) -> Path:
@@ -24,40 +24,40 @@ def unfinished_file(path: Path, pid: int | None = None) -> Path:
 
 
 def finished_name(name: str) -> str | None:
-    """Return the name that an unfinished file was to have; None for any other file."""
+    """Return the final name of an unfinished file; None for any other file."""
     found = _UNFINISHED.fullmatch(name)
     return found["name"] if found else None
 
 
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
-    """Yield the name for a new file, which then takes the place of `path`, complete or not at all.
+    """Yield the name for a new file, which then replaces `path` as a whole or not at all.
 
     Missing directories are created. Raises OSError, with the name of the file, if it cannot be written.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = unfinished_file(path)
     try:
-        unfinished.unlink(missing_ok=True)  # of a killed process that had the same id
+        unfinished.unlink(missing_ok=True)  # left by a killed process with the same id
         yield unfinished
         finish(path)
     except BaseException as error:
         with contextlib.suppress(OSError):  # a read-only directory
             unfinished.unlink(missing_ok=True)
-        if isinstance(error, OSError):  # of a full disk, without the name of the file
+        if isinstance(error, OSError):  # for a full disk it has no file name
             raise OSError(error.errno, error.strerror, str(path)) from error
         raise
 
 
 def finish(path: Path) -> None:
-    """Give `unfinished_file(path)`, which is complete, its name. Both outlast a power failure.
+    """Rename the complete `unfinished_file(path)`. Both survive a power failure.
 
     Raises OSError.
     """
     unfinished = unfinished_file(path)
     _sync(unfinished, os.O_RDWR)
     unfinished.replace(path)
-    if hasattr(os, "O_DIRECTORY"):  # elsewhere a directory cannot be opened
+    if hasattr(os, "O_DIRECTORY"):  # other systems cannot open a directory
         try:
             _sync(path.parent, os.O_RDONLY)
         except OSError as error:

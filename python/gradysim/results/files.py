@@ -41,10 +41,10 @@ def _stem(config: str, run: int, mode: Mode) -> str:
 def files_changed_since(
     scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[int] = ()
 ) -> tuple[str, ...] | None:
-    """Return the files that settings name, such as protocols, that changed since the run was done.
+    """Return the files in settings, such as protocols, that have changed since the run.
 
-    None if the run is not done: `directory` has no complete result of it with the same settings and seed, and
-    with the outcomes at the nodes `fates_at`, by their ids.
+    None if the run is not done: `directory` does not have a complete result of it with the same settings,
+    seed and outcomes at the nodes `fates_at`, by their ids.
     """
     result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
     if (
@@ -73,7 +73,7 @@ def _has_settings_of(scenario: Scenario, result: Mapping[str, Any]) -> bool:
 
 
 def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable[Path]) -> bool:
-    """Return whether all these files are complete, and of the run whose result is in `directory`."""
+    """Return whether all these files are complete, and belong to the run whose result is in `directory`."""
     known = _read(run_file(directory, scenario.config, scenario.run_number, mode)).get("output_hashes")
     hashes = known if isinstance(known, dict) else {}
     return all((found := hash_of(file)) and hashes.get(file.name) == found for file in files)
@@ -105,9 +105,8 @@ def write_run_file(result: RunResult, directory: Path, written: Iterable[Path] =
 
     `written` are other complete files of the run; the result file has their names and hashes.
 
-    An earlier file of the same configuration, run and mode is replaced, by the complete file or not at all:
-    other processes may read it, or write it too. Raises OSError, with the name of the file, when it cannot be
-    written.
+    An earlier file of the same configuration, run and mode is replaced as a whole or not at all, since other
+    processes may read or write it. Raises OSError, with the name of the file, if it cannot be written.
     """
     path = run_file(directory, result.config, result.run, result.mode)
     hashes = {file.name: found for file in written if (found := hash_of(file))}
@@ -119,16 +118,16 @@ def write_run_file(result: RunResult, directory: Path, written: Iterable[Path] =
 
 
 def with_checksum(text: str) -> str:
-    """Return the text of a result file, which ends with an empty checksum, with the checksum of itself."""
+    """Return the text of a result file, which ends with an empty checksum, with its actual checksum."""
     return text.removesuffix(_NO_CHECKSUM) + _NO_CHECKSUM.replace('""', f'"{_hash_of_text(text)}"')
 
 
 def read_run_file(file: Path) -> dict[str, Any]:
-    """Return the JSON object in a result file. A file without a checksum is taken as it is.
+    """Return the JSON object in a result file. A file without a checksum is accepted.
 
     Raises:
         OSError: It cannot be read.
-        ValueError: It does not hold a JSON object, or not the one that was written.
+        ValueError: It is not a JSON object, or its checksum does not match.
     """
     text = file.read_text(encoding="utf-8")
     try:

@@ -32,11 +32,11 @@ class Mean:
         iterations: {name: value}, as the result files have it.
         quantity: `uavs[*] heard`: a tracked variable, the mean of a group's nodes; `unicast messages retry
             limit`: a ratio; `unicast messages delay in s`: the mean of a run's messages.
-        runs: Number of runs that have a number.
+        runs: Number of runs with a number.
         mean: None if no run has a number.
         half_width: Of the 95 % confidence interval; None for a single run.
-        left_out: Values of a tracked variable, at all nodes in all runs, that are not finite numbers and so
-            left out: `5 inf, 3 missing of 15`.
+        left_out: Values of a tracked variable, at all nodes in all runs, that are left out because they are
+            not finite numbers: `5 inf, 3 missing of 15`.
     """
 
     config: str
@@ -51,12 +51,12 @@ class Mean:
 
 @dataclass(frozen=True)
 class RunSummary:
-    """What means over runs need of one run: a result has all its nodes, and a study many results.
+    """Summary of one run for means. A result has all its nodes, and a study many results.
 
     Attributes:
-        computed: Hash of all that the run computed.
+        computed: Hash of all computed values of the run.
         groups: Tracked variables by group of nodes.
-        numeric_variables: (group, name) of those that are a number at any node, even an infinite one.
+        numeric_variables: (group, name) of those that are a number at any node, including infinity.
         averages: Numbers of the run, by name.
         fates: Outcomes of frames and messages; see `LEDGERS`.
         file: The result file.
@@ -99,7 +99,7 @@ class RunSummary:
 
     @cached_property
     def numbers(self) -> Mapping[str, float]:
-        """Numbers of the run by quantity; of a tracked variable the mean of a group, if it has one."""
+        """Numbers of the run by quantity. For a tracked variable: the mean of a group, if it has one."""
         variables = {
             f"{group} {name}": mean
             for group, name in self.numeric_variables
@@ -109,7 +109,7 @@ class RunSummary:
 
     @property
     def values(self) -> str:
-        """Key of the runs that a mean is taken over."""
+        """Key of the runs that are averaged."""
         return json.dumps([self.config, self.mode, self.iterations], sort_keys=True)
 
     @property
@@ -126,8 +126,8 @@ def read_means(directory: str | os.PathLike[str], quantities: Names | None = Non
     """Return the means that `gradysim means` prints of a directory.
 
     Interrupted runs are left out. `quantities` selects by name, `"uavs[*] heard"` or
-    `["*delay*", "unicast messages *"]`, with `*` for any letters and `?` for any single one; None for all
-    but the numbers of the run itself, such as `cpu_s`. Raises ConfigError for a damaged file, and OSError.
+    `["*delay*", "unicast messages *"]`, with `*` for any characters and `?` for a single one. None selects
+    all except numbers of the run itself, such as `cpu_s`. Raises ConfigError for a damaged file, and OSError.
     """
     return means(read_results(Path(directory)), quantities)
 
@@ -180,7 +180,7 @@ def means(results: Iterable[RunSummary], quantities: Names | None = None) -> lis
     """Return the mean of each quantity over the runs with equal values of iteration variables.
 
     `quantities` selects as in `read_means`. A quantity that occurs in some runs of a configuration and mode
-    has a row for all of their values, so that it is 0 in the others.
+    has a row for all of their values. It is 0 in the other runs.
     """
     found: list[Mean] = []
     fits = name_filter(quantities)
@@ -234,9 +234,9 @@ def repeated(results: Iterable[RunSummary]) -> list[tuple[str, str]]:
 
 
 def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | None:
-    """Return the names of two runs of one configuration and of a file that differs between them, if any does.
+    """Return the names of two runs of one configuration and of a file that differs between them, if any.
 
-    Their values of variables may differ: such runs are compared with each other.
+    The values of their variables may differ, since such runs are compared with each other.
     """
     first: dict[tuple[str, str], tuple[str, RunSummary]] = {}
     for result in results:

@@ -101,7 +101,7 @@ TABLES: Mapping[str, Mapping[str, str]] = {
 """{table: {column: its type}}. Numbers that may be NaN may be NULL: SQLite stores NaN as NULL."""
 
 RUN_ID = 1
-"""Of the only run in a file."""
+"""Id of the only run in a file."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +112,7 @@ class RunIdentity:
         name: Unique among runs.
         attributes: Run attributes by name.
         iterations: Value of each named iteration variable, as the .ini file writes it.
-        settings: The lines of the .ini file that this run consists of, overrides first.
+        settings: Lines of the .ini file that make up this run, overrides first.
     """
 
     name: str
@@ -141,7 +141,7 @@ def identity_of(result: RunResult, scenario: Scenario, directory: Path) -> RunId
 
 
 def lasting_attributes(scenario: Scenario, mode: Mode, *, interrupted: bool = False) -> dict[str, str]:
-    """Return the attributes that stay the same when the run is done again, from any folder."""
+    """Return the attributes that stay the same if the run is repeated, from any directory."""
     known = scenario.variables
     return {
         **{name: known[name] for name in PREDEFINED if name in known and name != "inifile"},
@@ -155,8 +155,8 @@ def lasting_attributes(scenario: Scenario, mode: Mode, *, interrupted: bool = Fa
 def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connection"]:
     """Create a file with these tables and the rows about its run; the caller adds the others.
 
-    An earlier file of that name is replaced, by the complete file or not at all. Missing directories are
-    created. Raises OSError, with the name of the file, when it cannot be written.
+    An earlier file of that name is replaced as a whole or not at all. Missing directories are created. Raises
+    OSError, with the name of the file, if it cannot be written.
     """
     import sqlite3
 
@@ -164,7 +164,7 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
         try:
             connection = sqlite3.connect(unfinished, isolation_level=None)
             try:
-                # No other process opens the file until it is complete, and an incomplete one is deleted.
+                # No other process opens the file before it is complete, and an incomplete one is deleted.
                 connection.execute("PRAGMA journal_mode = OFF")
                 connection.execute("PRAGMA synchronous = OFF")
                 connection.execute("BEGIN")
@@ -181,7 +181,7 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
 
 
 def storable(text: str) -> str:
-    """Return the string with what UTF-8 cannot encode, such as half of a surrogate pair, escaped."""
+    """Return the string with escapes for what UTF-8 cannot encode, such as half a surrogate pair."""
     return text.encode(errors="backslashreplace").decode()
 
 
@@ -219,7 +219,7 @@ def _insert(
 def write_scalar_file(
     scalars: Iterable[Scalar], identity: RunIdentity, path: Path, histograms: Iterable[Histogram] = ()
 ) -> None:
-    """Write a `.sca` file, complete or not at all. Raises OSError, with its name."""
+    """Write a `.sca` file, as a whole or not at all. Raises OSError, with its name."""
     with new_database(path, identity) as connection:
         for scalar in scalars:
             row = {
@@ -243,7 +243,7 @@ def _insert_histogram(connection: "sqlite3.Connection", histogram: Histogram) ->
         "isWeighted": 0,
         "statCount": values.count,
         "statMean": values.mean_s,
-        "statStddev": values.stddev_s if values.count > 1 else None,  # as OMNeT++ has it
+        "statStddev": values.stddev_s if values.count > 1 else None,  # as in OMNeT++
         "statSum": values.sum_s,
         "statSqrsum": values.sum_of_squares_s2,
         "statMin": values.min_s,
@@ -263,7 +263,7 @@ def vectors_of(result: RunResult, network: str) -> Iterator[tuple[str, Vector]]:
 
 
 def write_vector_file(vectors: Iterable[tuple[str, Vector]], identity: RunIdentity, path: Path) -> None:
-    """Write a `.vec` file, complete or not at all. Raises OSError, with its name.
+    """Write a `.vec` file, as a whole or not at all. Raises OSError, with its name.
 
     `vectors` are pairs (path of its module, vector), as `vectors_of` yields them.
     """
@@ -302,7 +302,7 @@ def _insert_vector(connection: "sqlite3.Connection", module: str, vector: Vector
         "title": vector.name,
         "source": vector.name,
         "recordingmode": "vector",
-        # A variable keeps its value until it is set again; a vehicle moves between two telemetries.
+        # A variable keeps its value until it is set again; a vehicle moves between two telemetry messages.
         "interpolationmode": "linear" if vector.part == "mobility" else "sample-hold",
         **({"unit": vector.unit} if vector.unit else {}),
     }

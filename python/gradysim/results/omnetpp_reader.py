@@ -40,9 +40,9 @@ def read_scalars(paths: Paths, names: Names | None = None) -> list[Row]:
 def read_vectors(paths: Paths, names: Names | None = None) -> list[Row]:
     """Return a row for each vector of `.vec` files; `pandas.DataFrame` makes a table of them.
 
-    The columns are those of `read_scalars`, with `vectime` (seconds) and `vecvalue` in place of `value`:
-    arrays of floats, for `numpy.asarray`. `names` selects vectors, `"heard:vector"`: trajectories may be much
-    larger than all else.
+    The columns are those of `read_scalars`, with `vectime` (seconds) and `vecvalue` instead of `value`:
+    arrays of floats, for `numpy.asarray`. `names` selects vectors, `"heard:vector"`, since trajectories may
+    be very large.
 
     Raises OSError for a file that cannot be read, and ValueError for a file of another kind.
     """
@@ -147,7 +147,7 @@ def _opened(path: Path) -> Iterator["sqlite3.Connection"]:
     """Open a file read-only."""
     import sqlite3
 
-    path.open("rb").close()  # raises an error with the reason; SQLite does not say it
+    path.open("rb").close()  # raises an error with the reason, which SQLite does not give
     connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
     try:
         yield connection

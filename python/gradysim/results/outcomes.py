@@ -18,18 +18,18 @@ Outcomes = Mapping[str, Counts]
 """{ledger: its counts}; see `LEDGERS`."""
 
 _UNDECIDED = {"queued", "in_air"}
-"""Outcomes of what was still under way when the run ended."""
+"""Outcomes of frames and messages that were in progress at the end of the run."""
 
 
 @dataclass(frozen=True)
 class Ledger:
-    """What a table of outcomes counts.
+    """Table of outcomes.
 
     Attributes:
-        title: Of its table in the details.
-        label: Of the kinds of frames or messages in the summary.
-        module: Of its scalars, in the network; "" for the network itself.
-        suffix: Follows the kind in the names of scalars.
+        title: Title of its table in the details.
+        label: Label of the kinds of frames or messages in the summary.
+        module: Module of its scalars, in the network; "" for the network itself.
+        suffix: Suffix after the kind in the names of scalars.
     """
 
     title: str
@@ -49,7 +49,7 @@ LEDGERS = {
 
 
 def plain_counts(counts: Counts) -> dict[str, dict[str, int]]:
-    """Return counts as plain dicts. Large networks have millions of them, all plain already."""
+    """Return counts as plain dicts. Large networks have millions of plain counts already."""
     return {kind: dict(outcomes) for kind, outcomes in counts.items()}
 
 
@@ -80,14 +80,13 @@ def _camel_case(text: str) -> str:
 
 
 def outcome_ratios(outcomes: Mapping[str, Any]) -> Iterator[Average]:
-    """Yield `unicast messages acknowledged`, its share of all that were decided, and so on.
+    """Yield `unicast messages acknowledged`, its ratio of all decided messages, and so on.
 
-    Of messages there is a ratio for each outcome. Of frames, and of broadcasts in prototype mode, there is
-    the delivery ratio of receptions. Kinds of which nothing was decided are left out, and so are frames that
-    were overheard.
+    Messages have a ratio for each outcome. Frames, and broadcasts in prototype mode, have the delivery ratio
+    of receptions. Kinds without decided outcomes are left out, and so are overheard frames.
     """
     copies, frames, messages = (outcomes.get(ledger) or {} for ledger in ("copies", "frames", "messages"))
-    # In prototype mode a message to one node has one reception, whose outcome is that of the message.
+    # In prototype mode a message to one node has one reception with the outcome of the message.
     unicast = copies.get("unicast") or messages.get("unicast") or {}
     for outcome, ratio in _ratios(unicast):
         shown_at_zero = outcome in ("acknowledged", "delivered")
@@ -115,7 +114,7 @@ def _ratios(counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:
 
 
 def decided(counts: Mapping[str, int]) -> dict[str, int]:
-    """Return the counts by the names of outcomes for people, without what was still under way."""
+    """Return the counts by readable names of outcomes, without those still in progress."""
     return {
         outcome.replace("_", " "): count for outcome, count in counts.items() if outcome not in _UNDECIDED
     }

@@ -1,4 +1,4 @@
-"""Declares the numbers of a run: each field of a result once, for all outputs that show it.
+"""Declarations of the numbers of a run: each field of a result once, for all outputs.
 
 A field of `RunResult` or `NodeResult` is annotated with a `Quantity`. The JSON object, the scalars of `.sca`
 files, the summary, `gradysim means` and the reference table of docs/reference/results.md follow from it.
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from gradysim.results.delays import Delays
 
 Names = str | Iterable[str]
-"""One name or several, with `*` for any letters and `?` for any single one."""
+"""One name or several, with `*` for any characters and `?` for a single one."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Scalar:
     """One number in a `.sca` file.
 
     Attributes:
-        module: Full path, which begins with the name of the network.
+        module: Full path, which starts with the name of the network.
     """
 
     module: str
@@ -38,7 +38,7 @@ class Histogram:
     """One distribution in a `.sca` file.
 
     Attributes:
-        module: Full path, which begins with the name of the network.
+        module: Full path, which starts with the name of the network.
     """
 
     module: str
@@ -53,8 +53,8 @@ class Average:
 
     Attributes:
         name: As in its column `quantity`.
-        shown_at_zero: Whether it has a row, too, if it is 0 in all runs.
-        listed: Whether it has a row unless it is asked for by name.
+        shown_at_zero: Whether it also has a row if it is 0 in all runs.
+        listed: Whether it has a row without a request by name.
     """
 
     name: str
@@ -67,21 +67,21 @@ class Average:
 class Quantity:
     """Declaration of one field of a result.
 
-    A number needs names only. A family (a mapping of any size) brings functions that make scalars and
-    averages of its value.
+    A number needs names only. A family (a mapping of any size) has functions that make scalars and averages
+    of its value.
 
     Attributes:
-        text: What it is, for the reference table, in Markdown.
-        unit: Of a number, in scalars and in the summary; "" for none.
-        scalar: Its name in `.sca` files; of a family the pattern of its names. "" if it is not there.
-        summary: Its label in the summary; "" if it has no line there.
+        text: Description for the reference table, in Markdown.
+        unit: Unit of a number, in scalars and in the summary; "" for none.
+        scalar: Name in `.sca` files; for a family the pattern of its names. "" to leave it out.
+        summary: Label in the summary; "" to leave it out.
         digits: Format specification of the number in the summary.
-        mean: Its name in `gradysim means`; of a family the pattern of its names. "" if it is not averaged.
+        mean: Name in `gradysim means`; for a family the pattern of its names. "" if it is not averaged.
         in_json: Whether the JSON object has it.
-        omitted: Values with which the JSON object leaves it out.
-        to_json: Makes the value plain.
-        scalars: (value, module) to scalars, of a family.
-        averages: Plain value to averages, of a family.
+        omitted: Values that the JSON object leaves out.
+        to_json: Converts the value to plain values.
+        scalars: For a family, (value, module) to scalars.
+        averages: For a family, plain value to averages.
     """
 
     text: str
@@ -98,7 +98,7 @@ class Quantity:
 
 
 def quantities(result: type[Any]) -> Mapping[str, Quantity]:
-    """Return {field: its declaration} of a class of results, in the order of the fields."""
+    """Return {field: its declaration} of a result class, in the order of the fields."""
     if result not in _known:
         fields: Iterable[dataclasses.Field[Any]] = dataclasses.fields(result)
         _known[result] = {each.name: get_args(each.type)[1] for each in fields}
@@ -119,7 +119,7 @@ def json_object(result: Any) -> dict[str, object]:
 
 
 def scalars_of(result: Any, module: str) -> Iterator[Scalar]:
-    """Yield the scalars of all fields of a result; the paths of their modules begin with `module`."""
+    """Yield the scalars of all fields of a result; the paths of their modules start with `module`."""
     for name, quantity in quantities(type(result)).items():
         value = getattr(result, name)
         if value is None:
@@ -133,7 +133,7 @@ def scalars_of(result: Any, module: str) -> Iterator[Scalar]:
 def averages_of(result_type: type, plain: Mapping[str, Any]) -> Iterator[Average]:
     """Yield the numbers of a run in a JSON object, which may be of an older version.
 
-    Numbers without a name in `gradysim means` are called by their field, such as `cpu_s`.
+    Numbers without a name in `gradysim means` have the name of their field, such as `cpu_s`.
     """
     for name, quantity in quantities(result_type).items():
         value = plain.get(name)
@@ -144,7 +144,7 @@ def averages_of(result_type: type, plain: Mapping[str, Any]) -> Iterator[Average
 
 
 def recorded(module: str, name: str, value: float, unit: str = "") -> Scalar:
-    """Return a scalar; `heard:last` says that its source is `heard` and its recording mode `last`."""
+    """Return a scalar; `heard:last` means that its source is `heard` and its recording mode `last`."""
     source, _, mode = name.rpartition(":")
     attributes = {"unit": unit} if unit else {}
     if source:
@@ -153,9 +153,9 @@ def recorded(module: str, name: str, value: float, unit: str = "") -> Scalar:
 
 
 def name_filter(names: Names | None) -> Callable[[str], bool]:
-    """Return a function that says whether a name fits one of the patterns; without any, every name does."""
+    """Return a function that checks whether a name matches one of the patterns; None matches all names."""
     if names is None:
         return lambda _: True
-    # A bracket is a bracket, as in `received[0]:last`.
+    # Brackets are literal, as in `received[0]:last`.
     patterns = [name.replace("[", "[[]") for name in ([names] if isinstance(names, str) else names)]
     return lambda name: any(fnmatchcase(name, pattern) for pattern in patterns)

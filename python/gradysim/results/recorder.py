@@ -21,16 +21,16 @@ _PS_PER_S = 1e12
 class Vector:
     """One number over time: a tracked variable or a coordinate, with a row for each change.
 
-    The arrays have the same length, and go to numpy without copying (`numpy.asarray(vector.values)`). While a
-    run goes on, they have what was recorded when its result was taken.
+    The arrays have the same length, and numpy can use them without a copy (`numpy.asarray(vector.values)`).
+    If the run is not complete, they end where its result was taken.
 
     Attributes:
-        part: The part of the node that it belongs to: "protocol" or "mobility".
+        part: Part of the node: "protocol" or "mobility".
         name: Name of the variable in the protocol; `positionX`, `positionY` and `positionZ` of the
             trajectory.
         times_ps: Picoseconds of simulated time, in ascending order.
-        values: NaN where the variable became something else than a number, or was removed.
-        unit: Of the values; "" for none, or if it is not known.
+        values: NaN if the variable was removed or is not a number.
+        unit: Unit of the values; "" if there is none or it is unknown.
     """
 
     part: str
@@ -43,11 +43,11 @@ class Vector:
 class _Samples:
     """Rows of numbers that differ from those before, at most one in each interval.
 
-    What is recorded later than that is held until the interval is over.
+    Later rows are held until the interval is over.
     """
 
     def __init__(self, count: int, interval_ps: int, *, is_continuous: bool) -> None:
-        """Record rows of `count` numbers; with `is_continuous`, also the end of a time without changes."""
+        """Record rows of `count` numbers; with `is_continuous`, also the end of a period without changes."""
         self._interval_ps = interval_ps
         self._is_continuous = is_continuous
         self._times: Times = array("q")
@@ -77,7 +77,7 @@ class _Samples:
         self._append(time_ps, values)
 
     def rows(self) -> tuple[Times, tuple[Values, ...]]:
-        """Return copies of the times and of the columns up to now, with the row that is held."""
+        """Return copies of the times and of the columns up to now, including the held row."""
         count = min(len(self._times), *map(len, self._columns))  # without one that Ctrl-C interrupted
         times, columns = self._times[:count], tuple(column[:count] for column in self._columns)
         if self._held is not None:
@@ -95,16 +95,16 @@ class _Samples:
 
 
 class NodeRecorder:
-    """The vectors of one node, while they grow."""
+    """The growing vectors of one node."""
 
     def __init__(self, interval_s: float = 0.0) -> None:
-        """Record changes, of each vector at most one in `interval_s`."""
+        """Record changes, at most one per `interval_s` for each vector."""
         self._interval_ps = round(interval_s * _PS_PER_S)
         self._tracked: dict[str, _Samples] = {}
         self._positions = _Samples(3, self._interval_ps, is_continuous=True)
 
     def variable_set(self, time_ps: int, name: str, value: object) -> None:
-        """Record the new value of a tracked variable, None if it was removed.
+        """Record the new value of a tracked variable; None if it was removed.
 
         A variable that has never been a number is not recorded.
         """
@@ -118,11 +118,11 @@ class NodeRecorder:
         samples.add(time_ps, (_NAN if number is None or number != number else number,))
 
     def position_told(self, time_ps: int, x: float, y: float, z: float) -> None:
-        """Record where the node is, in meters."""
+        """Record the position of the node, in meters."""
         self._positions.add(time_ps, (x, y, z))
 
     def vectors(self) -> tuple[Vector, ...]:
-        """Return what was recorded up to now, the tracked variables in the order of their first numbers.
+        """Return the vectors up to now, the tracked variables in the order of their first numbers.
 
         The arrays are copies: an array with a view (`numpy.asarray`) cannot grow.
         """
@@ -139,19 +139,19 @@ class NodeRecorder:
 
 
 def recorders_of(vectors_of: Iterable[int], count: int, interval_s: float = 0.0) -> dict[int, NodeRecorder]:
-    """Return a recorder for each of the nodes with these ids, of `count` nodes; see `NodeRecorder`.
+    """Return a recorder for each node with these ids, out of `count` nodes; see `NodeRecorder`.
 
-    Raises TypeError and ValueError as `checked_ids`.
+    Raises TypeError and ValueError like `checked_ids`.
     """
     ids = sorted(set(checked_ids("vectors_of", vectors_of, count)))
     return {node_id: NodeRecorder(interval_s) for node_id in ids}
 
 
 def checked_ids(argument: str, ids: Iterable[int], count: int, expected: str = "") -> list[int]:
-    """Return the ids of some of `count` nodes that `argument` names, as Python's integers.
+    """Return the ids in `argument`, out of `count` nodes, as Python integers.
 
-    Raises TypeError for what is not an id, and ValueError for an id that no node has. `expected` is for the
-    message of the first one.
+    Raises TypeError for a value that is not an id, and ValueError for an id that no node has. `expected` is
+    for the first message.
     """
     try:
         checked = [operator.index(node_id) for node_id in ids]

@@ -33,12 +33,12 @@ _LIKE_A_NUMBER = re.compile(r"[-+.eE\d]+", re.ASCII)
 
 
 def plain_iterations(values: Mapping[str, str]) -> dict[str, int | float | str]:
-    """Return the values of iteration variables as JSON objects have them."""
+    """Return the values of iteration variables for JSON objects."""
     return {name: _plain_iteration(value) for name, value in values.items()}
 
 
 def _plain_iteration(value: str) -> int | float | str:
-    """Return a plain number as one, a quoted string without its quotes, and all else as it is written."""
+    """Return a plain number as a number, a quoted string without its quotes, and other values as strings."""
     for number in (int, float) if _LIKE_A_NUMBER.fullmatch(value) else ():
         with contextlib.suppress(ValueError, OverflowError):
             if math.isfinite(number(value)):
@@ -63,7 +63,7 @@ def _interferer_scalars(interferers: Mapping[str, int], node: str) -> Iterator[S
 
 @dataclass(frozen=True)
 class NodeResult:
-    """State of one node at the end of its run. The annotations say what each field is."""
+    """State of one node at the end of its run. The annotations describe the fields."""
 
     id: Annotated[int, Quantity("Id of the node, 0 to n-1.")]
     name: Annotated[str, Quantity("Name as in the scenario: `uavs[0]`, `groundStation`.")]
@@ -141,14 +141,14 @@ class NodeResult:
     def to_json_object(self) -> dict[str, object]:
         """Return the fields as plain values; see `plain_value`.
 
-        `vectors` is left out, and so are the fields that the run was not asked for.
+        `vectors` is left out, and so are fields that were not requested.
         """
         return json_object(self)
 
 
 @dataclass(frozen=True)
 class RunResult:
-    """What one run computed and what it cost. The annotations say what each field is."""
+    """Results and cost of one run. The annotations describe the fields."""
 
     config: Annotated[str, Quantity("Name of the configuration in the `.ini` file.")]
     run: Annotated[int, Quantity("Run number in the configuration, from 0.")]
@@ -272,7 +272,7 @@ class RunResult:
         return json_object(self)
 
     def scalars(self, network: str) -> Iterator[Scalar]:
-        """Yield the numbers of the run and of its nodes; the paths of their modules begin with `network`."""
+        """Yield the numbers of the run and of its nodes; the paths of their modules start with `network`."""
         yield from scalars_of(self, network)
         for node in self.nodes:
             yield from scalars_of(node, f"{network}.{node.name}")

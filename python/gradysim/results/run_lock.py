@@ -1,4 +1,4 @@
-"""Locks of runs: one process at a time computes a run in a directory, and removes what killed ones left.
+"""Locks of runs: one process at a time computes a run in a directory, and removes files of killed ones.
 
 A lock is a POSIX record lock on one byte of a file in the directory. It also holds between machines that
 share the directory by NFS. The kernel releases it when the process ends, however that happens. Forked
@@ -31,7 +31,7 @@ class RunLockedError(Exception):
     """Another process computes the run.
 
     Attributes:
-        pid: Its id, if the system tells it. It may be one on another machine.
+        pid: Its id, if the system knows it. It may be an id on another machine.
     """
 
     def __init__(self, pid: int | None) -> None:
@@ -48,14 +48,14 @@ def run_locked(directory: Path, name: str) -> Iterator[None]:
     time. Raises RunLockedError if another process holds the lock.
     """
     directory.mkdir(parents=True, exist_ok=True)
-    # 56 bits: two names will not have the same ones.
+    # 56 bits, so that two names have different values in practice.
     byte = int.from_bytes(hashlib.sha256(name.encode(errors="surrogatepass")).digest()[:7])
     with _locked(directory / LOCK_FILE, (byte, 1)):
         yield
 
 
 def remove_left_over_files(directory: Path) -> None:
-    """Remove unfinished files, and the lock file, unless a process computes a run in the directory."""
+    """Remove unfinished files and the lock file, unless a process computes a run in the directory."""
     try:
         entries = list(os.scandir(directory))
         left_over = [Path(entry) for entry in entries if finished_name(entry.name) is not None]
@@ -63,7 +63,7 @@ def remove_left_over_files(directory: Path) -> None:
             with _locked(directory / LOCK_FILE, _ALL):
                 for file in (*left_over, directory / LOCK_FILE):
                     file.unlink(missing_ok=True)
-    except (RunLockedError, OSError):  # of a directory that is missing, or that cannot be written to
+    except (RunLockedError, OSError):  # the directory is missing or not writable
         return
 
 
@@ -101,11 +101,11 @@ def _open_locked(path: Path, section: tuple[int, int]) -> int | None:
             continue
         if _is_at(path, descriptor):
             return descriptor
-        os.close(descriptor)  # it was removed meanwhile
+        os.close(descriptor)  # it was removed in the meantime
 
 
 def _holder(descriptor: int, section: tuple[int, int]) -> tuple[bool, int | None]:
-    """Return whether the lock is held for a run, and by which process, as far as the system tells."""
+    """Return whether the lock is held for a run, and the process that holds it, if known."""
     if sys.platform != "linux":
         return True, None
     import fcntl

@@ -11,17 +11,17 @@ from gradysim.replay.trace import name_width, text_line
 from gradysim.scenario.node_spec import NodeSpec
 
 _OWN = "gradysim."
-"""Loggers of this package. Their lines appear from WARNING on, and all from DEBUG on."""
+"""Loggers of this package. Their lines appear from WARNING on; at level DEBUG, all of them."""
 
 RecordEvent = Callable[[int, int, str], None]
 """Records an event of a replay: id of the node, kind of `EVENT_KINDS` by number, text."""
 
 
 class RunLog(logging.Handler):
-    """Writes what is logged inside the `with` block to standard error.
+    """Writes log lines inside the `with` block to standard error.
 
-    If logging has been configured, its handlers write the lines and its levels hold. In either case a replay
-    gets the lines of nodes.
+    If logging has been configured, its handlers and levels apply. In both cases a replay gets the lines of
+    nodes.
     """
 
     def __init__(
@@ -36,7 +36,7 @@ class RunLog(logging.Handler):
 
         Args:
             level: One of the levels of `logging`.
-            nodes: In the order of their ids.
+            nodes: Nodes in the order of their ids.
             now: Returns the simulated time in seconds.
             active_node: Returns the id of the node whose protocol runs, None outside of callbacks.
             record_event: Records the lines of nodes.
@@ -67,7 +67,7 @@ class RunLog(logging.Handler):
             root.setLevel(before)
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Write a line, or several if its text has several."""
+        """Write a line, or several if its message has several."""
         if not self._is_mine(record):
             return
         try:
@@ -82,7 +82,7 @@ class RunLog(logging.Handler):
             self.handleError(record)
 
     def _is_mine(self, record: logging.LogRecord) -> bool:
-        """Whether no other run, of another thread or inside this one, logged it."""
+        """Return whether no other run, of another thread or inside this one, logged it."""
         runs = [handler for handler in logging.getLogger().handlers if isinstance(handler, RunLog)]
         return ([run for run in runs if run._thread == record.thread] or runs)[-1] is self
 
@@ -105,7 +105,7 @@ def _kind_of(level: int) -> str:
 
 
 def _has_other_handler(record: logging.LogRecord) -> bool:
-    """Whether a handler of the user shows it. A file does not show it."""
+    """Return whether a handler of the user shows it. A file does not show it."""
     logger: logging.Logger | None = logging.getLogger(record.name)
     while logger is not None:
         for handler in logger.handlers:

@@ -19,10 +19,10 @@ from gradysim.scenario.errors import ConfigError, nearest
 Per = Literal["run", "node", "time"]
 
 OF_RUN = ("config", "mode", "run", "seed")
-"""Columns of each table, and names of variables, besides iteration variables."""
+"""Columns of each table, and names of variables, in addition to iteration variables."""
 
 _TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs", "mean", "half_width"}
-"""Names of other columns. An iteration variable of such a name has the column `$mode` and so on."""
+"""Names of other columns. An iteration variable with such a name has the column `$mode` and so on."""
 
 
 def runs(directory: str | os.PathLike[str]) -> "Runs":
@@ -34,7 +34,7 @@ def runs(directory: str | os.PathLike[str]) -> "Runs":
 
 
 def variables_of(run: RunSummary) -> dict[str, Any]:
-    """Return the values that tell a run apart by the names of their columns: `OF_RUN`, then variables."""
+    """Return the values that distinguish a run, by the names of their columns: `OF_RUN`, then variables."""
     own = {name: getattr(run, name) for name in OF_RUN}
     return own | {column_of(name): value for name, value in run.iterations.items()}
 
@@ -45,10 +45,10 @@ def column_of(variable: str) -> str:
 
 
 class Runs:
-    """Runs of a study: a sequence of `RunSummary`, selected by `where` and shown by `columns`."""
+    """Runs of a study: a sequence of `RunSummary`, with selection by `where` and tables by `columns`."""
 
     def __init__(self, summaries: Iterable[RunSummary]) -> None:
-        """Take runs in their order."""
+        """Store runs in their order."""
         self._runs = tuple(summaries)
 
     def __len__(self) -> int:

@@ -183,7 +183,7 @@ class ScenarioRun(ABC):
 
     @abstractmethod
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
-        """Return what a replay says of the run before it begins; `recorded` are nodes, None for all."""
+        """Return the description of the run for a replay; `recorded` are nodes, None for all."""
 
     @abstractmethod
     def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:

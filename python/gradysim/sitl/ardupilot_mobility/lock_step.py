@@ -52,7 +52,7 @@ class LockStep(AutopilotMobilityHandler):
             console_folder=configuration.uav_api_log_path,
             timeout_s=configuration.uav_api_startup_timeout,
         )
-        # A whole number of updates per telemetry.
+        # An integer number of updates per telemetry message.
         update_s = self._telemetry_s / math.ceil(self._telemetry_s / UPDATE_S - 1e-9)
         reference = configuration.reference_coordinates
         super().__init__(
