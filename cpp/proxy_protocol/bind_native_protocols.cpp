@@ -1,5 +1,5 @@
-// The table of native protocols, as gradysim.integrated.native_protocols hands it to the reader of
-// .ini files.
+// The table of native protocols, for gradysim.integrated.native_protocols and the reader of .ini
+// files.
 #include <string>
 #include <variant>
 

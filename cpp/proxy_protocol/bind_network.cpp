@@ -1,4 +1,4 @@
-// The network: building it, running it, reading its ledgers.
+// The network: building it, running it, reading its results.
 #include <cstdint>
 #include <cstdio>
 #include <map>

@@ -1,4 +1,4 @@
-// A node as its Python protocol's provider sees it.
+// A node, as used by the provider of its Python protocol.
 #include <memory>
 #include <string_view>
 #include <utility>

@@ -14,7 +14,7 @@ namespace proxy_protocol {
 
 namespace {
 
-// The name of a timer may be no UTF-8 if the protocol is native.
+// The name of a timer may not be UTF-8 if the protocol is native.
 py::str readable(const std::string& text) {
     PyObject* const decoded =
         PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace");

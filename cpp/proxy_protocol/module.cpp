@@ -1,4 +1,4 @@
-// The compiled module gradysim._netsim. Python's side of it is described in
+// The compiled module gradysim._netsim. Its Python side is described in
 // python/gradysim/_netsim.pyi.
 #include <pybind11/pybind11.h>
 

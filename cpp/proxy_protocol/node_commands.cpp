@@ -34,8 +34,8 @@ public:
     const char* what() const noexcept override { return "the argument cannot be read as a command"; }
 };
 
-// An attribute of a command. An argument without it is something else, such as a str or a command of
-// the other kind.
+// An attribute of a command. An argument without it is not a command of this kind, but a str, for
+// example.
 py::object attribute(py::handle command, PyObject* name) {
     PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
@@ -79,8 +79,8 @@ py::object validation(const char* function, const Arguments&... arguments) {
     return py::module_::import("gradysim.encapsulator.validation").attr(function)(arguments...);
 }
 
-// Carries out a command. A failure is raised as that exception of gradysim.protocol.errors. `wrong`
-// returns what is wrong with the command itself; if that is "", the engine's error text is raised.
+// Carries out a command. A failure raises that exception of gradysim.protocol.errors. `wrong`
+// returns the error of the command itself; if it is "", the engine's error text is used.
 template <typename Command, typename Wrong>
 void carry_out(const char* exception, Command command, Wrong wrong) {
     std::string words;
@@ -98,7 +98,7 @@ void carry_out(const char* exception, Command command, Wrong wrong) {
     throw py::error_already_set();
 }
 
-// A user's own command may have no interface: it goes to the first one.
+// A user's own command may not have an interface: it goes to the first one.
 std::int32_t interface_of(py::handle command) {
     static PyObject* const interface_name = name_of("interface");
     const auto value = py::reinterpret_steal<py::object>(PyObject_GetAttr(command.ptr(), interface_name));
@@ -109,7 +109,7 @@ std::int32_t interface_of(py::handle command) {
         PyErr_Clear();
         return 0;
     }
-    if (PyLong_CheckExact(value.ptr())) {  // which True is not
+    if (PyLong_CheckExact(value.ptr())) {  // False for True
         int overflow = 0;
         const long index = PyLong_AsLongAndOverflow(value.ptr(), &overflow);
         if (index >= 0 && index < netsim::most_interfaces) {
@@ -153,7 +153,7 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     node.send(destination_of(destination), std::move(payload), interface);
 }
 
-// Whether SET_SPEED sets a speed, and not a velocity. In gradysim 0.7 unused parameters are 0.
+// Whether SET_SPEED sets a speed instead of a velocity. In gradysim 0.7 unused parameters are 0.
 bool is_speed(py::handle command, const py::object& second, const py::object& third) {
     return (second.is_none() && third.is_none()) || validation("is_speed", command).cast<bool>();
 }

@@ -1,4 +1,4 @@
-// The proxy protocol: a protocol of the engine that hands every event to a Python object.
+// The proxy protocol: a protocol of the engine that forwards every event to a Python object.
 //
 // The methods are called by name at each event, since the dispatcher plugin may replace them on the
 // instance at any time. A call by name costs as much as the same call in Python.

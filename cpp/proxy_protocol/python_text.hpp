@@ -1,4 +1,4 @@
-// Text across the border: Python str <-> UTF-8.
+// Conversion between Python str and UTF-8.
 //
 // Any Python string may be sent, also one with lone surrogates, which plain UTF-8 cannot hold
 // ("surrogatepass").

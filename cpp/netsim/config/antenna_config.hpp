@@ -1,5 +1,5 @@
-// One antenna: what `*.<node>.wlan[*].radio.antenna.…` sets in an .ini file. Used by the phy. What each field means, and
-// its range, is in antenna_config.cpp.
+// One antenna: settings `*.<node>.wlan[*].radio.antenna.…` of an .ini file. Used by the phy. The meaning and range of
+// each field are in antenna_config.cpp.
 //
 // Names are those of INET 4.5's antennas; INET has no defaults for gains and beam widths. Gains are linear ratios to an
 // isotropic antenna, angles are in radians.
@@ -31,7 +31,7 @@ struct AntennaConfig {
 
     static const Schema schema;
 
-    // Throws ConfigError for the first field out of its range; some ranges depend on the type and on the carrier.
+    // Throws ConfigError for the first field outside its range; some ranges depend on the type and on the carrier.
     void validate(double carrier_hz) const;
 
     bool operator==(const AntennaConfig&) const = default;

@@ -1,7 +1,7 @@
-// Checks of single values; each throws a ConfigError for the person who set the value: field, value, unit, what was
-// expected, nearest name. Fields of configurations have theirs from their declaration (config/field.hpp).
+// Checks of single values. Each throws a ConfigError for the person who set the value: field, value, unit, expected
+// values, nearest name. Fields of configurations are checked by their declarations (config/field.hpp).
 //
-// `field` is the full name, "radio.tx_power_w"; `unit` may be empty. NaN and infinity are outside of every range.
+// `field` is the full name, "radio.tx_power_w"; `unit` may be empty. NaN and infinity are outside every range.
 #pragma once
 
 #include <span>

@@ -1,8 +1,8 @@
-// The MAC of one 802.15.4 interface: what `*.<node>.wlan[*].mac.…` sets in an .ini file for a node whose interface is
-// an Ieee802154NarrowbandInterface. Used by the mac. What each field means, and its range, is in csma_config.cpp.
+// The MAC of one 802.15.4 interface: settings `*.<node>.wlan[*].mac.…` of an .ini file for a node whose interface is an
+// Ieee802154NarrowbandInterface. Used by the mac. The meaning and range of each field are in csma_config.cpp.
 //
-// Defaults are those of INET 4.5's Ieee802154NarrowbandMac; so are the names of the values in .ini files, which are
-// those of IEEE Std 802.15.4-2006, table 86.
+// Defaults are those of INET 4.5's Ieee802154NarrowbandMac. So are the names of the values in .ini files, which come
+// from IEEE Std 802.15.4-2006, table 86.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct CsmaConfig {
 
     static const Schema schema;
 
-    // Throws ConfigError for the first field out of its range: "csma.min_be = -2: expected …".
+    // Throws ConfigError for the first field outside its range: "csma.min_be = -2: expected …".
     void validate() const;
 };
 

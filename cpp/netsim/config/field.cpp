@@ -98,7 +98,7 @@ void check_value(std::string_view field, std::string_view value, const ValueType
 
 void check_fields(const Schema& schema, const void* config) {
     for (const Field& field : schema.fields) {
-        // The accessor gives what may be written, which nothing here does.
+        // The accessor returns a mutable value, which this code only reads.
         const Member value =
             field.of(const_cast<void*>(config));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
         if (const auto* number = std::get_if<double*>(&value)) {

@@ -16,19 +16,19 @@
 
 namespace netsim {
 
-// What a value is, in which range, and how .ini files write it. Made by the functions below:
+// Type of a value, its range, and its format in .ini files. Made by the functions below:
 // `quantity("s").shown_in("us").at_least(0).at_most(1)`.
 struct ValueType {
     enum class Kind { quantity, level, ratio, number, integer, bytes, boolean, name, file };
 
     Kind kind = Kind::number;
-    std::string_view unit = {};   // of the field itself, an SI unit
-    std::string_view shown = {};  // the unit in which people read it; "" for `unit`
+    std::string_view unit = {};   // of the field, an SI unit
+    std::string_view shown = {};  // the unit of readable output; "" for `unit`
     double least = -std::numeric_limits<double>::infinity();
     double most = std::numeric_limits<double>::infinity();
     bool excludes_least = false;
-    std::optional<double> special = {};            // allowed beside the range
-    std::string_view special_meaning = {};         // "" where the meaning of the field says it
+    std::optional<double> special = {};            // allowed in addition to the range
+    std::string_view special_meaning = {};         // "" if the meaning of the field includes it
     std::span<const std::string_view> names = {};  // of Kind::name
 
     constexpr ValueType shown_in(std::string_view unit_of_people) const {
@@ -65,18 +65,18 @@ struct ValueType {
 constexpr ValueType quantity(std::string_view unit) {
     return {.kind = ValueType::Kind::quantity, .unit = unit};
 }
-// A power at a receiver, in W, which people write in dBm.
+// A power at a receiver, in W, written in dBm.
 constexpr ValueType level() {
     return {.kind = ValueType::Kind::level, .unit = "W", .shown = "dBm", .least = 0};
 }
-// A ratio of powers, which people write in dB.
+// A ratio of powers, written in dB.
 constexpr ValueType ratio() {
     return {.kind = ValueType::Kind::ratio, .shown = "dB", .least = 0};
 }
 constexpr ValueType number() {
     return {};
 }
-// A number that .ini files may write with the unit or without.
+// A number with an optional unit in .ini files.
 constexpr ValueType number_in(std::string_view unit) {
     return {.unit = unit};
 }
@@ -102,23 +102,23 @@ constexpr ValueType bitrate() {
     return quantity("bps").shown_in("Mbps").above(0).or_special(-1);
 }
 
-// The models that read a field, where another field chooses among several.
+// The models that read a field, if another field chooses among several models.
 struct ReadBy {
     std::string_view chosen_by;               // "radio.error_model"; "": every model reads it
-    std::span<const std::string_view> names;  // what that field says then
-    std::string_view shown;                   // how lists of keys name these models; "": not at all
+    std::span<const std::string_view> names;  // values of that field
+    std::string_view shown;                   // the name of these models in lists of keys; "" to leave it out
 };
 
 using Member = std::variant<double*, int*, bool*, std::string*>;
 
 struct Field {
-    std::string_view name;       // in C++ and Python
+    std::string_view name;       // the name in C++ and Python
     Member (*of)(void* config);  // the field of a struct
-    std::string_view key;        // in .ini files, below the path of the struct
+    std::string_view key;        // the key in .ini files, below the path of the struct
     ValueType type;
     std::string_view meaning;            // one sentence for lists of keys
-    std::optional<ReadBy> read_by = {};  // that of the struct, if nothing is said
-    bool must_be_set = false;  // its default stands for "not set": the model that reads it needs a value
+    std::optional<ReadBy> read_by = {};  // default: that of the struct
+    bool must_be_set = false;            // its default means "not set": the model that reads it needs a value
 };
 
 // All fields of one struct.
@@ -136,11 +136,11 @@ struct Schema {
 std::span<const Schema* const> all_schemas();
 
 // Throws ConfigError, about the field of that full name, for a value that is not of the type. NaN and infinity are
-// outside of every range.
+// outside every range.
 void check_value(std::string_view field, double value, const ValueType& type);
 void check_value(std::string_view field, std::string_view value, const ValueType& type);
 
-// Throws ConfigError for the first field of `config` that is out of its range.
+// Throws ConfigError for the first field of `config` outside its range.
 void check_fields(const Schema& schema, const void* config);
 
 template <typename Config>
@@ -159,5 +159,5 @@ Member member(void* config) {
 
 }  // namespace netsim
 
-// The name and the accessor of a field, for the first two members of a Field.
+// Name and accessor of a field, for the first two members of a Field.
 #define NETSIM_FIELD(Config, field) #field, &::netsim::member<&Config::field>

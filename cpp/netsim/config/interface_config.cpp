@@ -27,7 +27,7 @@ void check_error_model(const std::string& interface_type, const std::string& err
                        {"interface.typename"}});
 }
 
-// The bit rates of all operation modes are those of channels of 20 MHz (OFDM: IEEE Std 802.11-2020, table 17-4) or 22 MHz
+// The bit rates of all operation modes are for channels of 20 MHz (OFDM: IEEE Std 802.11-2020, table 17-4) or 22 MHz
 // (DSSS: clause 15, twice its 11 Mchip/s). Channels of other widths have other bit rates.
 void check_bandwidth(const InterfaceConfig& config) {
     constexpr double narrowest_hz = 20e6;

@@ -1,5 +1,5 @@
-// One network interface of a node: what `*.<node>.wlan[k].…` sets in an .ini file. Used by the network to build a radio
-// and the MAC above it.
+// One network interface of a node: settings `*.<node>.wlan[k].…` of an .ini file. The network builds a radio and the MAC
+// above it from them.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 namespace netsim {
 
 struct InterfaceConfig {
-    // Sets the defaults of that interface. Throws ConfigError if it is none of interface_type_names.
+    // Sets the defaults of that interface. Throws ConfigError if the name is not one of interface_type_names.
     explicit InterfaceConfig(std::string interface_type_name = std::string(ieee80211_interface))
         : type_name(std::move(interface_type_name)), radio(type_name) {}
 
@@ -24,7 +24,7 @@ struct InterfaceConfig {
     MacConfig mac;    // of Ieee80211Interface only
     CsmaConfig csma;  // of Ieee802154NarrowbandInterface only
 
-    // Throws ConfigError for the first field out of its range, in one of the parts: "radio.tx_power_w = …".
+    // Throws ConfigError for the first field outside its range, in one of the parts: "radio.tx_power_w = …".
     void validate() const;
 };
 

@@ -1,5 +1,5 @@
-// The kinds of network interface: what `*.<node>.wlan[*].typename` may say. Chooses the MAC, and the defaults of the
-// radio.
+// The kinds of network interface: values of `*.<node>.wlan[*].typename`. The kind chooses the MAC, and the defaults of
+// the radio.
 #pragma once
 
 #include <array>

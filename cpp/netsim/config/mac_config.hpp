@@ -1,8 +1,8 @@
-// One 802.11 interface: what `*.<node>.wlan[*].opMode`, `.bitrate` and `.mac.…` set in an .ini file. Used by the mac.
-// What each field means, and its range, is in mac_config.cpp.
+// One 802.11 interface: settings `*.<node>.wlan[*].opMode`, `.bitrate` and `.mac.…` of an .ini file. Used by the mac.
+// The meaning and range of each field are in mac_config.cpp.
 //
-// Defaults are those of INET 4.5's Ieee80211Interface. Whether a bitrate is one of the operation mode's is checked where
-// it is looked up, by ModeSet::mode_for_bitrate.
+// Defaults are those of INET 4.5's Ieee80211Interface. ModeSet::mode_for_bitrate checks whether a bitrate is one of the
+// operation mode's.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace netsim {
 
 inline constexpr std::array<std::string_view, 4> op_mode_names{"b", "g(erp)", "g(mixed)", "a"};
-// "": none, all unicast frames have one bitrate.
+// "": none, all unicast frames have the same bitrate.
 inline constexpr std::array<std::string_view, 4> rate_control_names{"", "ArfRateControl", "AarfRateControl",
                                                                     "MinstrelRateControl"};
 
@@ -36,10 +36,10 @@ struct MacConfig {
     // Immediate access: idle time before the frame counts toward its wait.
     bool backoff_optimization = true;
     bool initial_channel_busy = true;
-    // A station is idle after the backoff that follows its last frame, which it has whether or not another frame waits
-    // (IEEE 802.11-2020, 10.3.4.2).
+    // A station is idle after the backoff that follows its last frame. There is such a backoff even if no other frame
+    // waits (IEEE 802.11-2020, 10.3.4.2).
     bool skip_backoff_if_idle = false;
-    bool own_frames_set_nav = true;  // as in INET; in the standard, only frames of others do
+    bool own_frames_set_nav = true;  // as in INET; in the standard, only frames of other stations do
     bool inet_eifs = false;          // mac/contention.hpp
 
     std::string rate_control;  // of unicast frames, attempt by attempt
@@ -55,7 +55,7 @@ struct MacConfig {
 
     static const Schema schema;
 
-    // Throws ConfigError for the first field out of its range: "mac.cw_min = -2: expected …".
+    // Throws ConfigError for the first field outside its range: "mac.cw_min = -2: expected …".
     void validate() const;
 
     bool operator==(const MacConfig&) const = default;

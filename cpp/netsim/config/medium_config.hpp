@@ -1,8 +1,8 @@
-// The air of one network: what `*.radioMedium.…` sets in an .ini file. Used by the medium. What each field means, and its
-// range, is in medium_config.cpp.
+// The medium of one network: settings `*.radioMedium.…` of an .ini file. The meaning and range of each field are in
+// medium_config.cpp.
 //
-// Defaults are those of INET 4.5's medium of the same name; the three media differ in defaults and, for the
-// unit disk, in how a reception is decided.
+// Defaults are those of INET 4.5's medium of the same name. The three media differ in their defaults. The unit disk also
+// decides receptions in another way.
 #pragma once
 
 #include <array>
@@ -18,14 +18,14 @@ namespace netsim {
 
 inline constexpr std::string_view ieee80211_scalar_medium = "Ieee80211ScalarRadioMedium";
 inline constexpr std::string_view ieee802154_scalar_medium = "Ieee802154NarrowbandScalarRadioMedium";
-// Within RadioConfig::communication_range_m everything arrives, beyond it nothing: no noise, no path loss.
+// Everything arrives within RadioConfig::communication_range_m, nothing beyond it: no noise, no path loss.
 inline constexpr std::string_view unit_disk_medium = "UnitDiskRadioMedium";
 
 inline constexpr std::array medium_type_names{ieee80211_scalar_medium, ieee802154_scalar_medium,
                                               unit_disk_medium};
 // With other media, nothing reads the keys of radio, MAC and antenna.
 inline constexpr ReadBy with_radios{"medium.typename", std::span(medium_type_names).first(2), ""};
-// What each of them is: path_loss.hpp, two_ray.hpp, fading.hpp. The last four are free space, and chance (Fading).
+// See path_loss.hpp, two_ray.hpp and fading.hpp. The last four are free space with random gains (Fading).
 inline constexpr std::array<std::string_view, 8> path_loss_names{
     "FreeSpacePathLoss",  "BreakpointPathLoss", "TwoRayGroundReflection", "TwoRayInterference",
     "LogNormalShadowing", "RayleighFading",     "RicianFading",           "NakagamiFading"};
@@ -39,7 +39,7 @@ inline constexpr std::array<std::string_view, 2> background_noise_names{"Isotrop
 inline constexpr std::array<std::string_view, 1> propagation_names{"ConstantSpeedPropagation"};
 
 struct MediumConfig {
-    // Sets the defaults of that medium. Throws ConfigError if it is none of medium_type_names.
+    // Sets the defaults of that medium. Throws ConfigError if the name is not one of medium_type_names.
     explicit MediumConfig(std::string medium_type_name = std::string(ieee80211_scalar_medium));
 
     std::string type_name;  // `typename` in Python
@@ -58,11 +58,11 @@ struct MediumConfig {
     double k_db = 8;
     double shape_factor = 1;
     double coherence_time_s =
-        -1;  // 0: each transmission has a state of its own, as in INET; -1: that of the model
+        -1;  // 0: each transmission has its own state, as in INET; -1: the default of the model
 
     std::string background_noise = "IsotropicScalarBackgroundNoise";
     double temperature_k = 290;
-    double background_noise_w = 1e-14;  // -110 dBm in every band, whatever its width
+    double background_noise_w = 1e-14;  // -110 dBm in every band, for any width
 
     std::string propagation = "ConstantSpeedPropagation";  // at the speed of light
 
@@ -73,12 +73,12 @@ struct MediumConfig {
 
     static const Schema schema;
 
-    // In s. For -1 that of the model: 5 ms for fading, which Clarke's model gives for 10 m/s at 2.4 GHz (0.423 λ / v;
-    // Rappaport, "Wireless Communications", 2nd ed. 2002, 5.4.3); 1 s for shadowing, 10 m at that speed (M. Gudmundson,
+    // In s. For -1 the default of the model. Fading: 5 ms, which Clarke's model gives for 10 m/s at 2.4 GHz (0.423 λ / v;
+    // Rappaport, "Wireless Communications", 2nd ed. 2002, 5.4.3). Shadowing: 1 s, 10 m at that speed (M. Gudmundson,
     // "Correlation model for shadow fading in mobile radio systems", Electronics Letters 27, 1991: 8 m in a city).
     double coherence_time() const;
 
-    // Throws ConfigError for the first field out of its range: "medium.alpha = -1: expected …".
+    // Throws ConfigError for the first field outside its range: "medium.alpha = -1: expected …".
     void validate() const;
 };
 

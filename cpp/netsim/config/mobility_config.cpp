@@ -3,16 +3,16 @@
 namespace netsim {
 namespace {
 
-// The second name is of a vehicle under an autopilot, which scenario files have and the engine does not know.
+// The second name is for vehicles with an autopilot, which only scenario files support.
 constexpr std::array<std::string_view, 2> moving{mobility_type_names[0], "ArdupilotMobility"};
 constexpr ReadBy with_motion{"mobility.typename", moving, ""};
 
 constexpr Field fields[] = {
-    // Scenario files know more types, so its key is not declared here.
+    // Scenario files have further types, so its key is not declared here.
     {"typename", &member<&MobilityConfig::type_name>, "", one_of(mobility_type_names), ""},
     {NETSIM_FIELD(MobilityConfig, speed_mps), "speed", quantity("mps").at_least(0),
      "Speed until the protocol sets another one, as every mission of the plugin does", with_motion},
-    // Shorter intervals would leave time for nothing but telemetry; longer ones do not fit into simulated time.
+    // Shorter intervals would leave time only for telemetry; longer ones do not fit into simulated time.
     {NETSIM_FIELD(MobilityConfig, telemetry_interval_s), "telemetryInterval",
      quantity("s").shown_in("ms").at_least(1e-6).at_most(1e6).or_special(0),
      "Time between two calls of handle_telemetry, at least 1us; 0s: no calls. In prototype mode the call "

@@ -1,5 +1,5 @@
-// How one node moves: what `*.<node>.mobility.…` sets in an .ini file. Used by the mobility models. What each field means,
-// and its range, is in mobility_config.cpp.
+// Mobility of one node: settings `*.<node>.mobility.…` of an .ini file. Used by the mobility models. The meaning and
+// range of each field are in mobility_config.cpp.
 #pragma once
 
 #include <array>

@@ -3,9 +3,9 @@
 //
 // The first attempt at a faster rate is a probe: if it fails, the rate falls at once. AARF then
 // also requires more successes before the next probe. So a station at its best rate makes few
-// futile probes. A fall after consecutive failures, when the channel got worse, resets that number.
-// A faster rate is also tried if `interval` passed since the last change, so that a station with
-// little to send recovers, too.
+// futile probes. A decrease after consecutive failures, due to a worse channel, resets that number.
+// A faster rate is also tried if `interval` passed since the last change. So a station with few
+// frames recovers, too.
 //
 // The rates are those of the operation mode by bitrate. In g(mixed), OFDM and CCK rates alternate,
 // and a faster one may be more robust than a slower one.
@@ -44,7 +44,7 @@ public:
 private:
     struct Link {
         std::size_t mode = 0;
-        SimTime changed;  // also by a fall from the slowest mode, which changes only this
+        SimTime changed;  // also by a decrease from the slowest mode, which changes only this
         int increase_threshold = 1;
         int successes = 0;  // in a row
         int failures = 0;   // in a row

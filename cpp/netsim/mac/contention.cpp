@@ -59,7 +59,7 @@ void Contention::channel_busy_changed(bool busy) {
     }
 }
 
-// The end of the interframe space of a channel that is free since `idle_since`.
+// The end of the interframe space of a channel that has been free since `idle_since`.
 SimTime Contention::space_over(SimTime idle_since) const {
     const SimTime difs_over = idle_since + parameters_.timing.difs;
     if (!parameters_.config.inet_eifs) {

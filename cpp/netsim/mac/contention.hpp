@@ -51,11 +51,11 @@ public:
                                                              : SimTime::long_ago()),
           draws_(draws) {}
 
-    // Draws a backoff of 0 … contention_window slots and waits for the channel. Only when not in
-    // progress.
+    // Draws a backoff of 0 … contention_window slots and waits for the channel. Call it only if no
+    // wait is in progress.
     void start(int contention_window);
-    // The same without a backoff if the channel is free now: waits DIFS from now on, however long
-    // it has been free. If it becomes busy meanwhile, DIFS after that.
+    // The same without a backoff if the channel is free now: waits DIFS from now on, for any earlier
+    // idle time. If it becomes busy in the meantime, DIFS after that.
     void start_without_backoff_if_free(int contention_window);
     bool in_progress() const { return state_ != State::idle; }
 

@@ -55,7 +55,7 @@ void append_udp(Octets& octets, const Frame& frame) {
     append_be16(covered, datagram_length);
     covered.insert(covered.end(), octets.begin() + static_cast<std::ptrdiff_t>(start), octets.end());
     const unsigned checksum = internet_checksum(covered);
-    set_be16(octets, start + udp_checksum_offset, checksum == 0 ? 0xffff : checksum);  // 0 would say: none
+    set_be16(octets, start + udp_checksum_offset, checksum == 0 ? 0xffff : checksum);  // 0 would mean: none
 }
 
 }  // namespace

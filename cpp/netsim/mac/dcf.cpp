@@ -295,7 +295,7 @@ void Dcf::channel_busy_changed(bool busy) {
     }
 }
 
-// Frames that were not reported meanwhile may have made the channel busy.
+// Frames that were not reported in the meantime may have made the channel busy.
 void Dcf::watch_channel(SimTime since) {
     if (!watches_channel_) {
         watches_channel_ = true;

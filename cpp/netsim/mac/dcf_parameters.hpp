@@ -1,4 +1,4 @@
-// What all stations of one configuration in one network share. Computed once and never changed.
+// Parameters shared by all stations of one configuration in a network. Computed once and never changed.
 #pragma once
 
 #include "netsim/config/mac_config.hpp"
@@ -15,8 +15,8 @@ namespace netsim {
 const Mode& broadcast_mode(const MacConfig& config);
 
 struct DcfParameters {
-    // Throws ConfigError for what MacConfig::validate cannot check: bitrates and windows that the
-    // operation mode excludes.
+    // Throws ConfigError for values that MacConfig::validate cannot check: bitrates and windows that
+    // the operation mode excludes.
     DcfParameters(Simulator& simulator, MacConfig mac_config);
 
     Simulator& simulator;

@@ -40,7 +40,7 @@ constexpr int datagram_bytes(int payload_bytes) {
     return ipv4_header_bytes + udp_header_bytes + payload_bytes;
 }
 
-// What made a node send a message: a callback of its protocol, as a recorder numbers them; 0: not recorded.
+// The cause of a message: a callback of the sender's protocol, numbered by the recorder; 0: not recorded.
 using CauseId = std::uint32_t;
 
 struct Frame {

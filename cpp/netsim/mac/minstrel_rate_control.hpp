@@ -1,4 +1,4 @@
-// Minstrel: measures the share of successes at each rate, and uses the rates with the most
+// Minstrel: measures the success ratio at each rate, and uses the rates with the most
 // throughput.
 //
 // Every `update_interval`, the shares of the attempts since the last update enter the means (a rate

@@ -37,9 +37,9 @@ public:
     // first line of the interface is already in the cache. Step 0 prefetches what it points to,
     // step 1 what that points to.
     virtual void prefetch(int step) const = 0;
-    // The fates of the messages that this interface accepted.
+    // Outcomes of the messages that this interface accepted.
     virtual const MessageFates& message_fates() const = 0;
-    // Messages that wait or are in progress, to check the ledger.
+    // Messages that wait or are in progress, to check that outcomes balance.
     virtual std::size_t queued_messages() const = 0;
     // {bitrate in bps: unicast frames sent with it, retries included}; empty without adaptive rate
     // control.

@@ -1,4 +1,4 @@
-// The transmit queue of one interface: waiting frames, the frame in progress, and the ledger of
+// The transmit queue of one interface: waiting frames, the frame in progress, and the outcomes of
 // their messages.
 //
 //   add() -> WAITING --begin_next()--> IN PROGRESS --finish(fate)--> gone

@@ -3,8 +3,8 @@
 //
 // No airtime, no interference, no loss: the same rules as the channel of prototype mode. It
 // separates the logic of a protocol from the effects of the radio. The range is inclusive, and
-// evaluated when the message is sent. All interfaces share one channel: those of a node differ in
-// their range only.
+// evaluated when the message is sent. All interfaces share one channel: those of a node differ only
+// in their range.
 #pragma once
 
 #include <cstddef>

@@ -34,9 +34,9 @@ public:
         return position_on(time >= current_.start ? current_ : past_leg_at(time), time);
     }
 
-    // The direction of the motion just before that time, of any length. While the node stands, that
-    // of its last motion; 0 if it never moved. "Just before", so that a command at the same instant
-    // does not change earlier results.
+    // The direction of the motion just before that time, of any length. For a stationary node: the
+    // direction of its last motion; 0 if it never moved. "Just before", so that a command at the same
+    // instant does not change earlier results.
     Position course_at(SimTime time) const {
         return (time > current_.start ? current_ : leg_begun_before(time)).course;
     }

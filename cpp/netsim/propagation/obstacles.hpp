@@ -24,7 +24,7 @@ public:
 
     bool empty() const { return bodies_.empty(); }
 
-    // The share of the power that is left between `a` and `b`, 0 … 1.
+    // The ratio of the power that is left between `a` and `b`, 0 … 1.
     double gain(const Position& a, const Position& b, double carrier_hz) const;
 
 private:

@@ -1,9 +1,9 @@
-// The ledger of frames: the fate of each copy of each frame.
+// Outcomes of frames: one for each reception of each frame.
 //
-// A transmission makes one copy (one possible reception) for every other radio that knows its
-// format and listens to its band, at any distance. Every copy has exactly one fate. So for each
-// kind of frame, copies made = sum over the fates. The medium books copies below the sensitivity in
-// bulk; the radios book the others one by one.
+// A transmission makes one possible reception at every other radio that knows its format and
+// listens to its band, at any distance. Every reception has exactly one outcome. So for each kind of
+// frame, receptions = sum over the outcomes. The medium counts receptions below the sensitivity in
+// bulk; the radios count the others one by one.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ enum class FrameFate : std::uint8_t {
     below_sensitivity,      // below the sensitivity of that radio
     noise,                  // locked on and lost; would have been lost without interference
     interference,           // locked on and lost; would have been decoded without interference
-    receiver_transmitting,  // the receiver was transmitting when it arrived, or began to transmit during it
+    receiver_transmitting,  // the receiver was transmitting when it arrived, or started to transmit during it
     receiver_locked,        // the receiver was locked on to another frame when it arrived
     preamble_undetected,  // its preamble was too weak, or too weak relative to others: ThresholdPreambleDetection
     header_error,         // locked on, but its PHY header was lost: SNIR by chunks
@@ -38,7 +38,7 @@ constexpr std::array<const char*, frame_fate_count> frame_fate_names{
     "delivered",       "below_sensitivity",   "noise",        "interference", "receiver_transmitting",
     "receiver_locked", "preamble_undetected", "header_error", "captured",     "in_air"};
 
-// How many copies a transmission made, and how many of them are below sensitivity.
+// Number of receptions of a transmission, and of those below the sensitivity.
 struct CopyCount {
     std::uint64_t made = 0;
     std::uint64_t too_weak = 0;
@@ -46,24 +46,24 @@ struct CopyCount {
 
 class FrameFates {
 public:
-    // counts[fate] of the copies of one kind, at their addressees or overheard by others.
+    // counts[outcome] of the receptions of one kind, at their addressees or overheard by others.
     using Counts = std::array<std::uint64_t, frame_fate_count>;
 
     void add_node() { interferers_.add_node(); }
 
-    // Of every frame from now on; none if null.
+    // Notified of every frame from now on; none if null.
     void set_observer(FrameObserver* observer) { observer_ = observer; }
     FrameObserver* observer() const { return observer_; }
 
-    // One copy of `label`'s frame ended at `receiver`.
+    // The reception of `label`'s frame at `receiver` ended.
     void book(NodeId receiver, FrameLabel label, FrameFate fate);
-    // That copy was lost to interference by frames of `interferers` (nodes; each once).
+    // That reception was lost to interference by frames of `interferers` (nodes; each once).
     void book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers);
-    // A frame went on the air and made these copies, of which some are below sensitivity at their
+    // A frame went on the air with these receptions, some of which are below the sensitivity of their
     // receivers.
     void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
 
-    // Prefetches the count of that fate, which will be booked soon.
+    // Prefetches the count of that outcome, which will be incremented soon.
     void prefetch(NodeId receiver, FrameKind kind, FrameFate fate) const {
         const Column& column = at_nodes_[index(kind)][index(fate)];
         if (static_cast<std::size_t>(receiver) < column.size()) {
@@ -75,13 +75,13 @@ public:
     std::uint64_t copies(FrameKind kind, bool overheard) const {
         return (overheard ? overheard_ : addressed_)[index(kind)].copies;
     }
-    // Sums over all receivers. Copies without a fate yet are in_air. `overheard` selects the copies
-    // that were not for their receiver; broadcast frames are for all.
+    // Sums over all receivers. Receptions without an outcome yet are in_air. `overheard` selects
+    // receptions of frames for other nodes; broadcast frames are for all.
     Counts counts(FrameKind kind, bool overheard) const;
-    // The copies at one receiver that reached its sensitivity (below_sensitivity is not counted per
+    // Receptions at one node that reached its sensitivity (below_sensitivity is not counted per
     // node).
     Counts counts_at(NodeId receiver, FrameKind kind) const;
-    // {interfering node: copies lost at `receiver` with its help}
+    // {interfering node: receptions lost at `receiver` because of it}
     std::map<NodeId, std::uint64_t> interferers_at(NodeId receiver) const {
         return interferers_.at(receiver);
     }
@@ -95,10 +95,10 @@ private:
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
     static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
 
-    // Counts of one kind and one fate, by receiver.
+    // Counts of one kind and one outcome, by receiver.
     using Column = std::vector<std::uint64_t>;
-    // [kind][fate]. Each copy adds to one number, usually `delivered`, and a cache line has eight
-    // of them. A column without counts is empty.
+    // [kind][outcome]. Each reception adds to one number, usually `delivered`, and a cache line has
+    // eight of them. A column without counts is empty.
     std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
     FrameObserver* observer_ = nullptr;
     Interferers interferers_;

@@ -1,4 +1,4 @@
-// The kind, the destination and the number of a frame, for the ledger. Part of its transmission.
+// Kind, destination and number of a frame, for the counts of outcomes. Part of its transmission.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ using FrameNumber = std::uint64_t;
 struct FrameLabel {
     FrameKind kind = FrameKind::broadcast;
     NodeId destination = broadcast_id;
-    FrameNumber number = 0;  // given when it begins
+    FrameNumber number = 0;  // set at its start
 
     bool is_for(NodeId node) const { return destination == node || destination == broadcast_id; }
 };

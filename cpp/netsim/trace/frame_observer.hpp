@@ -1,5 +1,5 @@
-// Observer of every frame of a network, and of what becomes of it at each receiver. It does not
-// change the run. A network without one pays one test per frame and reception.
+// Observer of every frame of a network, and of its outcome at each receiver. It does not change the
+// run. A network without an observer pays one test per frame and reception.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ public:
         std::span<const NodeId> interferers{};  // from strong to weak
     };
 
-    // A frame begins. Of its receptions, `noticed` will end, each with a fate; the others are below
-    // the sensitivity.
+    // A frame starts. Of its receptions, `noticed` will end, each with an outcome; the others are
+    // below the sensitivity.
     virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed,
                               std::uint64_t too_weak) = 0;
     virtual void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) = 0;

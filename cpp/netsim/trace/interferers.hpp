@@ -1,4 +1,4 @@
-// The copies lost to interference, by receiver and interfering node.
+// Receptions lost to interference, by receiver and interfering node.
 //
 // In a large network, the counter of a pair is in no cache, and waiting for it would take longer
 // than the rest of a loss. So losses are logged first and counted several hundred at a time, with
@@ -20,9 +20,9 @@ public:
     void add_node() { counts_.emplace_back(); }
     std::size_t node_count() const { return counts_.size(); }
 
-    // A copy was lost at `receiver` with the help of each of `nodes`.
+    // A reception was lost at `receiver` because of each of `nodes`.
     void note(NodeId receiver, std::span<const NodeId> nodes);
-    // {interfering node: copies lost at `receiver` with its help}
+    // {interfering node: receptions lost at `receiver` because of it}
     std::map<NodeId, std::uint64_t> at(NodeId receiver) const;
 
 private:

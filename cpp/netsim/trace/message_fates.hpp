@@ -1,9 +1,8 @@
-// The ledger of messages: the fate of each message that one network interface, or several,
-// accepted.
+// Outcomes of messages that one network interface, or several, accepted.
 //
-// Each interface has its own, next to its queue. A network's ledger is their sum, computed on
-// demand. A message is queued until it has another fate, so messages accepted = sum over the fates.
-// Tests on random scenarios check that each is booked once.
+// Each interface counts its own, next to its queue. The counts of a network are their sum, computed
+// on demand. A message is queued until it has another outcome, so messages accepted = sum over the
+// outcomes. Tests on random scenarios check that each message is counted once.
 #pragma once
 
 #include <array>
@@ -41,7 +40,7 @@ public:
     }
 
     std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
-    // Messages without another fate are queued.
+    // Messages without another outcome are queued.
     Counts counts(MessageKind kind) const;
 
 private:
@@ -52,7 +51,7 @@ private:
     // counts begin again at 0.
     using Count = std::uint32_t;
     std::array<Count, message_kind_count> accepted_{};
-    // All fates but queued.
+    // All outcomes but queued.
     std::array<std::array<Count, message_fate_count - 1>, message_kind_count> ended_{};
 };
 

@@ -1,5 +1,5 @@
-// The radiotap header that precedes each 802.11 frame in a capture file: what the radio knows
-// besides the octets.
+// The radiotap header before each 802.11 frame in a capture file: data of the radio in addition to
+// the octets.
 //
 // Source: radiotap.org, fields Flags, Rate, Channel, Antenna signal, Antenna noise and TX power.
 #pragma once
