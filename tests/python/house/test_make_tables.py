@@ -1,8 +1,7 @@
-"""What docs/how-to/make-tables.md shows is what its python function returns."""
+"""What docs/how-to/make-tables.md shows is what its python function returns to its command."""
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -12,11 +11,9 @@ GUIDE = "docs/how-to/make-tables.md"
 
 
 def test_its_columns_are_those_that_are_shown(
-    code_blocks: Callable[[str, str], list[str]], shell: Callable[[str, Path], str], tmp_path: Path
+    code_blocks: Callable[[str, str], list[str]],
+    shell: Callable[[str, Path], str],
+    saved: Callable[..., Path],
 ) -> None:
     (commands,), (shown,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
-    shell(commands, tmp_path)
-    names: dict[str, Any] = {}
-    exec(code_blocks(GUIDE, "python")[0], names)
-    columns = names["heard"](str(tmp_path / "results"))
-    assert [f"{name} {values}" for name, values in columns.items()] == shown.splitlines()
+    assert shell(commands, saved(GUIDE, python="tables.py")).endswith(shown)

@@ -28,11 +28,11 @@ def file(swarm: Path) -> str:
     return str(swarm / "swarm/swarm.ini")
 
 
-def test_its_study_yields_the_rows_that_are_shown(
-    code_blocks: CodeBlocks, shown: dict[str, Any], file: str
+def test_its_commands_print_the_rows_that_are_shown(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], saved: Callable[..., Path]
 ) -> None:
-    rows = shown["study"](file, ["0s", "200ms"])
-    assert [str(row) for row in rows] == code_blocks(GUIDE, "text")[0].splitlines()
+    (commands,), (rows,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
+    assert shell(commands, saved(GUIDE, python="compare.py")).endswith(rows)
 
 
 def test_runs_in_parallel_are_those_of_this_process(shown: dict[str, Any], file: str) -> None:

@@ -30,6 +30,12 @@ def test_its_settings_run(code_blocks: Callable[[str, str], list[str]], tmp_path
     ]
 
 
+def test_its_commands_print_one_fingerprint(
+    root: Path, code_blocks: Callable[[str, str], list[str]], shell: Callable[[str, Path], str]
+) -> None:
+    assert shell(code_blocks(GUIDE, "sh")[0], root) == code_blocks(GUIDE, "text")[0]
+
+
 def test_its_table_has_every_native_protocol(root: Path) -> None:
     rows = re.findall(r"^\| `(\w+)` \|.*\| `?([^`]*?)`? \|$", (root / GUIDE).read_text(), re.MULTILINE)
     assert dict(rows) == {name: native._python_class for name, native in native_protocols().items()}
