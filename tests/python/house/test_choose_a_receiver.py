@@ -1,6 +1,7 @@
 """The file and the lines in docs/how-to/choose-a-receiver.md are valid."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,13 @@ from gradysim.scenario import load_scenarios
 @pytest.fixture
 def guide(root: Path) -> str:
     return (root / "docs/how-to/choose-a-receiver.md").read_text(encoding="utf-8")
+
+
+def test_its_command_prints_what_it_shows(
+    root: Path, code_blocks: Callable[[str, str], list[str]], prints: Callable[[str, Path, str], bool]
+) -> None:
+    page = "docs/how-to/choose-a-receiver.md"
+    assert prints(code_blocks(page, "sh")[0], root, code_blocks(page, "text")[0])
 
 
 def test_its_lines_and_its_table_run(root: Path, guide: str, tmp_path: Path) -> None:
