@@ -19,12 +19,12 @@ export DEBIAN_FRONTEND := noninteractive
 cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
 python_packages := $(shell find python -name __init__.py)
 cpp_checked := $(shell find cpp tests/cpp tests/fuzz bench -name '*.[ch]pp')
-python_checked := python tests examples bench docs
+python_checked := python tests examples bench docs packaging
 node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -129,6 +129,10 @@ fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerpr
 golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages about mistakes in scenarios.
 	REWRITE_GOLDEN=1 $(BIN)/python -m pytest -q tests/python/scenario/test_messages.py
 
+wheels: $(STAMPS)/build $(STAMPS)/wheels $(STAMPS)/test system-qemu  ## Build wheels for x86-64 and aarch64 and the source distribution into dist, and test them.
+	$(BIN)/python packaging/build_wheels.py
+	$(BIN)/python -m pytest -o pythonpath='packaging tests/wheels' -v -rs --durations=0 tests/wheels
+
 release: | $(VENV)/bin/python  ## Test, build the wheels and tag a release: VERSION=1.0.0.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
 	$(MAKE) --no-print-directory lint test
@@ -181,6 +185,9 @@ system-npm:
 system-chromium:
 	$(call need,command -v chromium,chromium fonts-dejavu-core)
 
+system-qemu:
+	$(call need,command -v qemu-aarch64-static,qemu-user-static)
+
 $(node_packages): viewer/package-lock.json | system-npm
 	cd viewer && npm ci --silent --no-audit --no-fund
 	@touch $@
@@ -191,7 +198,7 @@ $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
 
 # Which packages, and which version of each: [dependency-groups] of pyproject.toml.
-$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/docs: pyproject.toml | $(VENV)/bin/python
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/docs $(STAMPS)/wheels: pyproject.toml | $(VENV)/bin/python
 	@mkdir -p $(STAMPS)
 	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
 	$(BIN)/pip install --quiet --group $(@F)
