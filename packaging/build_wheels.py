@@ -22,15 +22,12 @@ def compilers(architecture: str) -> Path:
     directory = BUILD / f"zig-{architecture}"
     includes = directory / "include"
     includes.mkdir(parents=True, exist_ok=True)
-    target = f"-target {architecture}-linux-gnu.{GLIBC} -isystem {includes}"
-    for name, command in {
-        "cc": f"cc {target}",
-        "c++": f"c++ {target}",
-        "llvm-ar": "ar",
-        "llvm-ranlib": "ranlib",
-    }.items():
+    # The last option wins: all calls have one kind of -flto. For each kind, ziglang compiles its C++ library,
+    # which takes minutes.
+    target = f'-target {architecture}-linux-gnu.{GLIBC} -isystem {includes} "$@" -flto=thin'
+    for name, command in {"c++": f"c++ {target}", "llvm-ar": 'ar "$@"', "llvm-ranlib": 'ranlib "$@"'}.items():
         tool = directory / name
-        tool.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m ziglang {command} "$@"\n')
+        tool.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m ziglang {command}\n')
         tool.chmod(0o755)
     # Debian's Python.h includes <ARCHITECTURE-linux-gnu/python3.11/pyconfig.h>. It is the same for both.
     for each in ARCHITECTURES:
@@ -60,12 +57,13 @@ def build_wheel(python: str, version: str, architecture: str) -> None:
         "build-dir": objects,
         "wheel.tags": f"{tag}-{tag}-{PLATFORM}_{architecture}",
         "cmake.define.PYTHON_MODULE_EXTENSION": suffix,
+        "cmake.define.CMAKE_TRY_COMPILE_CONFIGURATION": "Release",
     }
     if architecture != HOST:
         settings["cmake.define.CMAKE_SYSTEM_NAME"] = "Linux"
         settings["cmake.define.CMAKE_SYSTEM_PROCESSOR"] = architecture
     options = [f"-C{name}={value}" for name, value in settings.items()]
-    run_build(python, "--wheel", *options, CC=str(tools / "cc"), CXX=str(tools / "c++"))
+    run_build(python, "--wheel", *options, CXX=str(tools / "c++"))
 
 
 def main() -> None:
