@@ -67,6 +67,12 @@ def without_engine() -> Path:
     return wheel
 
 
+@pytest.fixture(scope="session")
+def gradysim(without_engine: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The command of an environment with that wheel."""
+    return fresh_environment(sys.executable, without_engine, tmp_path_factory.mktemp("pure")) / "gradysim"
+
+
 def test_there_is_a_wheel_for_each_python_and_architecture() -> None:
     expected = {(version, architecture) for version in pythons() for architecture in ARCHITECTURES}
     assert {(version_of(wheel), architecture_of(wheel)) for wheel in COMPILED} == expected
@@ -85,8 +91,7 @@ def test_the_engine_is_compiled_for_the_tag_of_its_wheel(wheel: Path) -> None:
 @each_compiled
 def test_it_needs_no_newer_system_than_its_tag_says(wheel: Path) -> None:
     shown = json.loads(run(sys.executable, "-m", "auditwheel", "show", "--json", wheel))
-    print(shown)
-    needed = re.match(r"manylinux_(\d+)_(\d+)_", shown["overall_policy"])
+    needed = re.match(r"manylinux_(\d+)_(\d+)_", shown["overall_tag"])
     promised = re.match(r"manylinux_(\d+)_(\d+)", PLATFORM)
     assert needed is not None
     assert promised is not None
@@ -112,19 +117,13 @@ def test_its_runs_have_the_fingerprints_of_the_sources(
     print(run(*emulated(architecture, python), compare, PYTHONPATH=tmp_path))
 
 
-def test_prototype_mode_runs_without_the_engine(without_engine: Path, tmp_path: Path) -> None:
-    commands = fresh_environment(sys.executable, without_engine, tmp_path)
-    run(commands / "gradysim", "run", ROOT / "configs/zigzag.ini", "-c", "ZigZag5", "--mode", "prototype")
+def test_prototype_mode_runs_without_the_engine(gradysim: Path) -> None:
+    run(gradysim, "run", ROOT / "configs/zigzag.ini", "-c", "ZigZag5", "--mode", "prototype")
 
 
-def test_integrated_mode_says_in_a_sentence_that_the_engine_is_missing(
-    without_engine: Path, tmp_path: Path
-) -> None:
-    gradysim = fresh_environment(sys.executable, without_engine, tmp_path) / "gradysim"
+def test_integrated_mode_says_in_a_sentence_that_the_engine_is_missing(gradysim: Path) -> None:
     command = [gradysim, "run", ROOT / "configs/zigzag.ini", "-c", "ZigZag5", "--mode", "integrated"]
-    ended = subprocess.run(command, capture_output=True, text=True)
-    assert ended.returncode == 1
-    (sentence,) = ended.stderr.splitlines()
+    (sentence,) = subprocess.run(command, capture_output=True, text=True).stderr.splitlines()
     assert "integrated mode needs the compiled part of gradysim" in sentence
 
 
