@@ -1,0 +1,54 @@
+"""docs/reference/summary.md explains what `gradysim run` prints."""
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.cli.summary import MAX_ROWS
+from gradysim.integrated.run import run
+from gradysim.scenario import load_scenarios
+
+PAGE = "docs/reference/summary.md"
+
+# Processor times, and hashes, which change with the engine.
+CHANGING = re.compile(r"[\d.]+ s \([\d,]+ x real time\)|fingerprint \w+")
+
+
+@pytest.fixture
+def file(code_blocks: Callable[[str, str], list[str]], tmp_path: Path) -> Path:
+    """The .ini file of the example."""
+    for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
+        block = code_blocks("docs/reference/example.md", language)[0]
+        (tmp_path / name).write_text(block, encoding="utf-8")
+    return tmp_path / "hello.ini"
+
+
+def plain(text: str) -> list[str]:
+    """The lines without what differs from run to run."""
+    return [CHANGING.sub("", line).rstrip() for line in text.strip().splitlines()]
+
+
+def test_it_shows_a_summary(
+    code_blocks: Callable[[str, str], list[str]], file: Path, shell: Callable[[str, Path], str]
+) -> None:
+    (shown,) = code_blocks(PAGE, "text")
+    assert plain(shell("gradysim run hello.ini -c Jittered", file.parent)) == plain(shown)
+
+
+def test_it_explains_every_outcome(root: Path, file: Path) -> None:
+    text = " ".join((root / PAGE).read_text().split())
+    fates = run(load_scenarios(file)[0]).fates
+    names = {
+        fate.replace("_", " ") for kinds in fates.values() for counts in kinds.values() for fate in counts
+    }
+    columns = {word for kinds in fates.values() for kind in kinds for word in kind.split()}
+    assert {name for name in names if name not in text} == set()
+    assert columns - {"broadcast"} <= set(re.findall(r"\w+", text))
+
+
+def test_the_number_of_rows_is_that_of_the_summary(root: Path) -> None:
+    assert f"If there are more than {MAX_ROWS} nodes" in (root / PAGE).read_text()
