@@ -22,7 +22,7 @@ default_role = "py:obj"
 
 # Markdown: links to headings as on GitHub.
 myst_heading_anchors = 4
-myst_enable_extensions = ["attrs_inline"]
+myst_enable_extensions = ["attrs_block", "attrs_inline"]
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"

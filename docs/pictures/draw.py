@@ -1,7 +1,9 @@
 """Draws the pictures of the README and the guides from runs: `make pictures`."""
 
 import json
+import os
 import re
+import shutil
 import socket
 import subprocess
 import sys
@@ -10,6 +12,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote
 
 from PIL import Image
 
@@ -30,7 +33,12 @@ def pictures(
     scenario, *_ = load_scenarios(file, config, overrides=[f"sim-time-limit={limit}"])
     replay = folder / "replay.html"
     IntegratedRun(scenario, replay=ReplayWriter(replay)).execute()
-    asked = {"file": str(replay), "address": address, "width": 900, "height": 560}
+    return film(folder, replay, address, times_s)
+
+
+def film(folder: Path, replay: Path, address: str, times_s: Sequence[float | None]) -> list[Image.Image]:
+    """Return what a replay shows at those times; None is the time of the address."""
+    asked = {"file": quote(str(replay)), "address": address, "width": 900, "height": 560}
     asked |= {"times": list(times_s), "directory": str(folder)}
     subprocess.run(["node", HERE / "film.mjs"], input=json.dumps(asked), text=True, check=True)
     return [Image.open(folder / f"{number:04}.png").convert("RGB") for number in range(len(times_s))]
@@ -79,6 +87,66 @@ def draw_film(folder: Path) -> None:
     film[0].save(HERE / "replay.gif", save_all=True, append_images=film[1:], duration=120, loop=0)
 
 
+@dataclass(frozen=True)
+class TutorialShot:
+    """A picture of a replay in the tutorial, run with the files as they are at the end of a page."""
+
+    name: str
+    page: str
+    arguments: str
+    time_s: float | None
+    address: str
+
+
+TUTORIAL_SHOTS = (
+    TutorialShot("hello", "1-hello", "--mode prototype", 10.02, "#"),
+    TutorialShot("at-once", "2-moving-nodes", "", 10.00004, "#"),
+    TutorialShot("base", "4-groups-and-parameters", "-c Crowded", 40.0008, "#node=base"),
+    TutorialShot(
+        "interference",
+        "7-what-was-lost",
+        "-c Study -r 20",
+        None,
+        "#frame=114&filter=outcome:interference",
+    ),
+)
+TUTORIAL_BLOCK = re.compile(
+    r"(?:(at the end of )?`(\w+\.\w+)`:\n\n(?:\{[^\n]*\}\n)?)?^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL
+)
+
+
+def draw_tutorial(folder: Path) -> None:
+    """Play the tutorial, draw its replays, and keep the figures that its commands draw."""
+    play = folder / "tutorial"
+    play.mkdir()
+    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+    for page in sorted((ROOT / "docs/tutorial").glob("[1-9]-*.md")):
+        text = page.read_text()
+        for added, name, language, block in TUTORIAL_BLOCK.findall(text):
+            if name:
+                with (play / name).open("a" if added else "w") as file:
+                    file.write(block)
+            elif language == "sh" and not re.search("pip install|gradysim view", block):
+                subprocess.run(
+                    ["sh", "-ec", block],
+                    cwd=play,
+                    env={**os.environ, "PATH": path},
+                    check=True,
+                    stdout=subprocess.DEVNULL,
+                )
+        for shot in TUTORIAL_SHOTS:
+            if shot.page == page.stem:
+                results = folder / shot.name
+                arguments = [*shot.arguments.split(), "--replay", "all", "--result-dir", str(results)]
+                main(["run", str(play / "hello.ini"), *arguments, "--quiet"])
+                (replay,) = results.glob("*.html")
+                (picture,) = film(folder, replay, shot.address, [shot.time_s])
+                save(picture, f"tutorial/{shot.name}")
+        for name in re.findall(r"\]\(../pictures/tutorial/([\w-]+\.png)\)", text):
+            if (play / name).exists():
+                shutil.copy(play / name, HERE / "tutorial" / name)
+
+
 def is_listening(port: int) -> bool:
     """Return whether a server listens on this port of this machine."""
     with socket.socket() as client:
@@ -114,6 +182,7 @@ if __name__ == "__main__":
         for shot in SHOTS:
             draw_shot(Path(name), shot)
         draw_viewer(Path(name))
+        draw_tutorial(Path(name))
     curve = HERE / "curve.png"
     main(
         ["calibrate", str(CONFIGS / "zigzag.ini"), "-c", "ZigZag5", "--range", "50m", "--picture", str(curve)]

@@ -1,5 +1,6 @@
 // Takes pictures of a replay in Chromium. Reads {file, address, width, height, times, directory} from standard
-// input, and writes DIRECTORY/0000.png and so on, one for each time in seconds.
+// input, and writes DIRECTORY/0000.png and so on, one for each time in seconds. A time of null is
+// that of the address.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
@@ -13,7 +14,7 @@ const page = await browser.newPage({ viewport: { width: asked.width, height: ask
 await page.goto(`file://${asked.file}${asked.address}`);
 await page.evaluate(() => gradysim.ready);
 for (const [number, time] of asked.times.entries()) {
-  await page.evaluate((seconds) => gradysim.seek(seconds), time);
+  if (time !== null) await page.evaluate((seconds) => gradysim.seek(seconds), time);
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   await page.screenshot({ path: `${asked.directory}/${String(number).padStart(4, "0")}.png` });
 }
