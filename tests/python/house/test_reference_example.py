@@ -1,4 +1,4 @@
-"""What docs/reference/example.md shows is what happens."""
+"""The output in docs/reference/example.md is correct."""
 
 import json
 import re
@@ -20,7 +20,7 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.fixture
 def file(code_blocks: CodeBlocks, tmp_path: Path) -> Path:
-    """The .ini file of a reader, with the study."""
+    """Return the .ini file of a reader, with the study."""
     (tmp_path / "hello.py").write_text(code_blocks(PAGE, "python")[0], encoding="utf-8")
     file = tmp_path / "hello.ini"
     file.write_text("\n".join(code_blocks(PAGE, "ini")), encoding="utf-8")

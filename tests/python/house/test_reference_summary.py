@@ -20,7 +20,7 @@ CHANGING = re.compile(r"[\d.]+ s \([\d,]+ x real time\)|fingerprint \w+")
 
 @pytest.fixture
 def file(code_blocks: Callable[[str, str], list[str]], tmp_path: Path) -> Path:
-    """The .ini file of the example."""
+    """Return the .ini file of the example."""
     for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
         block = code_blocks("docs/reference/example.md", language)[0]
         (tmp_path / name).write_text(block, encoding="utf-8")
@@ -28,7 +28,7 @@ def file(code_blocks: Callable[[str, str], list[str]], tmp_path: Path) -> Path:
 
 
 def plain(text: str) -> list[str]:
-    """The lines without what differs from run to run."""
+    """Return the lines without what differs from run to run."""
     return [CHANGING.sub("", line).rstrip() for line in text.strip().splitlines()]
 
 

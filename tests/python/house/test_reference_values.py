@@ -1,4 +1,4 @@
-"""The values in docs/reference/values.md work with the README's first protocol; its tables are complete."""
+"""The values in docs/reference/values.md work with the example of the guides; its tables are complete."""
 
 import re
 from collections.abc import Callable
@@ -16,15 +16,16 @@ from gradysim.scenario.expressions import SELECT_WRITTEN
 from gradysim.scenario.functions import FUNCTIONS, OPERATORS
 
 GUIDE = "docs/reference/values.md"
+EXAMPLE = "docs/reference/example.md"
 
 
 @pytest.fixture
 def scenarios(
     code_blocks: Callable[[str, str], list[str]], tmp_path: Path
 ) -> Callable[[str], list[Scenario]]:
-    """Load a configuration of the README's first file with additional configurations of this page."""
-    (tmp_path / "hello.py").write_text(code_blocks("README.md", "python")[0], encoding="utf-8")
-    text = [code_blocks("README.md", "ini")[0], *code_blocks(GUIDE, "ini")]
+    """Load a configuration of the example with additional configurations of this page."""
+    (tmp_path / "hello.py").write_text(code_blocks(EXAMPLE, "python")[0], encoding="utf-8")
+    text = [code_blocks(EXAMPLE, "ini")[0], *code_blocks(GUIDE, "ini")]
     (tmp_path / "hello.ini").write_text("\n".join(text), encoding="utf-8")
     return lambda config: load_scenarios(tmp_path / "hello.ini", config)
 

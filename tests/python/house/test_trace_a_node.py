@@ -14,6 +14,6 @@ def test_the_trace_is_the_one_that_is_shown(
     code_blocks: Callable[[str, str], list[str]], shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:
     for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
-        (tmp_path / name).write_text(code_blocks("README.md", language)[0], encoding="utf-8")
+        (tmp_path / name).write_text(code_blocks("docs/reference/example.md", language)[0], encoding="utf-8")
     command, shown = code_blocks(GUIDE, "sh")[0], code_blocks(GUIDE, "text")[0]
     assert shell(command, tmp_path).startswith(shown)

@@ -1,4 +1,4 @@
-"""The tutorial, played as a reader would: its files, its commands in order, and what they print."""
+"""The commands of the tutorial, in order, print the output that its pages show."""
 
 import os
 import re
@@ -20,7 +20,18 @@ from gradysim.scenario.keys import COMMUNICATION_MEDIUM_KEYS
 from python.viewing import watched
 
 ROOT = Path(__file__).parents[3]
-PAGES = sorted((ROOT / "docs/tutorial").glob("[1-9]-*.md"))
+PAGES = [
+    ROOT / page
+    for page in (
+        "docs/tutorial/1-hello.md",
+        "docs/tutorial/2-moving-nodes.md",
+        "docs/tutorial/3-a-real-radio.md",
+        "docs/tutorial/4-groups-and-parameters.md",
+        "docs/tutorial/5-a-study.md",
+        "docs/tutorial/6-the-figure.md",
+        "docs/tutorial/7-what-was-lost.md",
+    )
+]
 BLOCK = re.compile(
     r"(?:(?P<added>at the end of )?`(?P<name>\w+\.\w+)`:\n\n"
     r'(?:\{emphasize-lines="(?P<marked>[\d,-]+)"\}\n)?)?'
@@ -51,17 +62,17 @@ class Played:
 
 
 def blocks(page: Path) -> Iterator[re.Match[str]]:
-    """The code blocks of a page."""
+    """Return the code blocks of a page."""
     return BLOCK.finditer(page.read_text(encoding="utf-8"))
 
 
 def is_installation(commands: str) -> bool:
-    """Whether the commands install gradysim, which is done already."""
+    """Return whether the commands install gradysim, which is done already."""
     return "pip install" in commands
 
 
 def plain(text: str) -> list[str]:
-    """The lines without what differs from run to run."""
+    """Return the lines without what differs from run to run."""
     return [CHANGING.sub("", line).rstrip() for line in text.splitlines() if line.strip()]
 
 
@@ -90,7 +101,7 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Played:
 
     for page in PAGES:
         for block in blocks(page):
-            if block["name"]:
+            if block["language"] in ("python", "ini"):
                 with (folder / block["name"]).open("a" if block["added"] else "w") as file:
                     file.write(block["text"])
             elif block["language"] == "sh" and not is_installation(block["text"]):
@@ -163,6 +174,11 @@ def test_the_radio_reaches_as_far_as_it_says(played: Played, tmp_path: Path) -> 
     assert f"reach {reach_m} m by default" in COMMUNICATION_MEDIUM_KEYS[0].meaning
     migration = (ROOT / "docs/how-to/migrate-from-0.8.md").read_text(encoding="utf-8")
     assert f"its broadcasts reach {reach_m} m, and those of the prototype 60 m" in migration
+
+
+def test_the_index_lists_the_pages() -> None:
+    index = (ROOT / "docs/tutorial/index.md").read_text(encoding="utf-8")
+    assert re.findall(r"^(\d-.*)$", index, re.MULTILINE) == [page.stem for page in PAGES]
 
 
 def test_each_page_has_a_picture_a_try_and_a_next_page() -> None:

@@ -15,6 +15,7 @@ from gradysim.results.quantity import Scalar
 from gradysim.scenario import load_scenarios
 
 GUIDE = "docs/how-to/use-omnetpp-tools.md"
+EXAMPLE = "docs/reference/example.md"
 
 CodeBlocks = Callable[[str, str], list[str]]
 Shell = Callable[[str, Path], str]
@@ -22,9 +23,9 @@ Shell = Callable[[str, Path], str]
 
 @pytest.fixture
 def folder(code_blocks: CodeBlocks, tmp_path: Path) -> Path:
-    """Return the directory of a reader with the README's first protocol and its study."""
-    (tmp_path / "hello.py").write_text(code_blocks("README.md", "python")[0], encoding="utf-8")
-    text = "".join([*code_blocks("README.md", "ini")[:2], *code_blocks(GUIDE, "ini")])
+    """Return the directory of a reader with the example of the guides and its study."""
+    (tmp_path / "hello.py").write_text(code_blocks(EXAMPLE, "python")[0], encoding="utf-8")
+    text = "".join([*code_blocks(EXAMPLE, "ini")[:2], *code_blocks(GUIDE, "ini")])
     (tmp_path / "hello.ini").write_text(text, encoding="utf-8")
     return tmp_path
 

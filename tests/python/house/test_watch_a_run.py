@@ -19,11 +19,11 @@ def text(root: Path) -> str:
 
 @pytest.fixture
 def folder(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Return a directory with the first protocol of the README. It is the working directory."""
-    readme = (root / "README.md").read_text()
+    """Return a directory with the example of the guides. It is the working directory."""
+    example = (root / "docs/reference/example.md").read_text()
     for language, name in [("python", "hello.py"), ("ini", "hello.ini")]:
         (tmp_path / name).write_text(
-            re.findall(rf"^```{language}\n(.*?)^```", readme, re.MULTILINE | re.DOTALL)[0]
+            re.findall(rf"^```{language}\n(.*?)^```", example, re.MULTILINE | re.DOTALL)[0]
         )
     monkeypatch.chdir(tmp_path)
     return tmp_path
