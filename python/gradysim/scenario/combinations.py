@@ -106,7 +106,7 @@ def check_lock_step(variables: Sequence[IterationVariable]) -> None:
 
 
 def _leader(variable: IterationVariable, by_name: Mapping[str, IterationVariable]) -> IterationVariable:
-    """The variable that this one is in lock-step with in the end; itself if there is none."""
+    """Return the variable that this one is finally in lock-step with; itself if there is none."""
     passed = [variable.name]
     while variable.follows:
         if variable.follows in passed:
@@ -121,8 +121,8 @@ def _leader(variable: IterationVariable, by_name: Mapping[str, IterationVariable
 class Constraint:
     """The option `constraint`: which combinations are runs, as in `$nodes * $rate < 500`.
 
-    It is an expression that is true or false. Variables are written `$x` or `${x}`, and their values take
-    their places. Each result is kept: repetitions ask for it again.
+    It is an expression that is true or false. Variables are written `$x` or `${x}`, and are replaced by their
+    values. Each result is cached, since repetitions need it again.
     """
 
     def __init__(self, entry: Entry) -> None:
@@ -134,7 +134,7 @@ class Constraint:
         self._known: dict[str, bool] = {"": True}  # that is the default
 
     def holds(self, variables: Mapping[str, str]) -> bool:
-        """Whether a combination of values is wanted.
+        """Return whether a combination of values is a run.
 
         Raises:
             ConfigError: The constraint is neither true nor false, or cannot be decided.

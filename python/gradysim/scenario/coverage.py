@@ -16,11 +16,11 @@ _OF_ALL_VALUES = ("iterationvars", "iterationvarsf", "iterationvarsd")
 
 
 class Coverage:
-    """Tells which runs have values that the runs before them do not have.
+    """Finds the runs with values that earlier runs do not have.
 
-    A line is new with each combination of the values that stand in it. Lines that choose nodes and models
-    count as one line, so that each combination of these is new. Values that differ in each run, such as
-    `${runnumber}`, do not count.
+    A line is new with each combination of the values in it. Lines that choose nodes and models count as one
+    line, so that each combination of these is new. Values that differ in each run, such as `${runnumber}`, do
+    not count.
     """
 
     def __init__(
@@ -64,7 +64,7 @@ class Coverage:
         return [name for name in names if name == REPETITION or name not in PREDEFINED]
 
     def network_of(self, index: int) -> tuple[int, ...]:
-        """Return what is equal for runs whose networks are made of the same values, but for their seeds."""
+        """Return a key that is equal for runs whose networks have the same values, except for their seeds."""
         place = self._places[index]
         values = tuple([place // stride % size for stride, size in self._of_network])
         return (*values, place) if self._differs_always else values

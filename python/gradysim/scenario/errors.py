@@ -67,13 +67,13 @@ class Source:
 
 
 class ConfigError(ValueError):
-    """A mistake in a scenario. Its text is "FILE:LINE: problem; expected ...; did you mean `...`?".
+    """An error in a scenario. Its text is "FILE:LINE: problem; expected ...; did you mean `...`?".
 
     Attributes:
-        problem: What is wrong.
+        problem: Description of the error.
         expected: What is expected, or "" if the problem says it.
         suggestion: The nearest valid name, or "".
-        hint: More advice for the end of the message, "; ...", or "".
+        hint: Further advice for the end of the message, "; ...", or "".
         message: All of these, without the place.
         source: The place, or None for a mistake without one (a run number that does not exist).
         file: The file of the place, or None.
@@ -117,7 +117,7 @@ class ConfigError(ValueError):
         return f"{self.source}: {self.message}" if self.source else self.message
 
     def with_hint(self, hint: str) -> Self:
-        """Return the same error with more advice at its end."""
+        """Return the same error with further advice at its end."""
         return type(self)(self.problem, self.source, **(self._details() | {"hint": self.hint + hint}))
 
     def _details(self) -> dict[str, str]:
@@ -135,10 +135,10 @@ def _restored(
 
 
 class ConfigErrors(ConfigError):  # noqa: N818 - several of them
-    """All mistakes of a file, one for each entry or part of one. As an error by itself, it is the first.
+    """All errors of a file, one for each entry or part of one. As a single error, it is the first.
 
     Attributes:
-        errors: The mistakes, by file and line.
+        errors: The errors, by file and line.
     """
 
     def __init__(self, errors: Iterable[ConfigError]) -> None:
@@ -162,18 +162,18 @@ def _place(error: ConfigError) -> tuple[str, int]:
 
 
 class ErrorCollector:
-    """Mistakes that are reported together.
+    """Errors that are reported together.
 
     Attributes:
         errors: Those found so far.
     """
 
     def __init__(self) -> None:
-        """Start without any."""
+        """Start without errors."""
         self.errors: list[ConfigError] = []
 
     def add(self, error: ConfigError) -> None:
-        """Add a mistake, or several. Raises ConfigErrors if there are too many: reading stops."""
+        """Add an error, or several. Raises ConfigErrors if there are too many: reading stops."""
         several = error.errors if isinstance(error, ConfigErrors) else [error]
         self.errors += [each for each in several if each not in self.errors]
         if len(self.errors) >= _MOST_ERRORS:

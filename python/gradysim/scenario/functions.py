@@ -82,7 +82,7 @@ def _sum(left: Value, right: Value) -> Value:
 
 
 def _comparison(compare: Callable[[Any, Any], bool]) -> Callable[[Value, Value], Value]:
-    """Of two numbers in any units, two strings by their characters, or two truth values."""
+    """Compare two numbers in any units, two strings by their characters, or two truth values."""
 
     def apply(left: Value, right: Value) -> Value:
         if isinstance(left, Quantity) and isinstance(right, Quantity):
@@ -119,18 +119,18 @@ OPERATORS: dict[str, Operator] = {
     "/": Operator(6, lambda left, right: number(left).over(number(right))),
     "%": Operator(6, lambda left, right: number(left).modulo(number(right))),
 }
-"""By sign. `^`, which alone takes its right operand first, is a part of the grammar."""
+"""Operators by sign. `^`, which alone takes its right operand first, is part of the grammar."""
 
 
 def check_count(written: str, count: int) -> None:
-    """Raise BadValue unless the function that is written so, `pow(x, y)`, takes that many values."""
+    """Raise BadValue unless the function written as `written`, `pow(x, y)`, takes that many values."""
     takes = written.count(",") + (not written.endswith("()"))
     if count != takes:
         raise BadValue(f"`{written}` takes {takes} value{'' if takes == 1 else 's'}, not {count}")
 
 
 def call(name: str, values: Sequence[Value]) -> Value:
-    """Return what one of FUNCTIONS gives for these values. BadValue if it takes others."""
+    """Return the result of one of FUNCTIONS. BadValue if it takes other values."""
     written, apply = FUNCTIONS[name]
     check_count(written, len(values))
     try:
@@ -199,7 +199,7 @@ def _fabs(value: Value) -> Value:
 
 
 def _fmod(dividend: Value, divisor: Value) -> Value:
-    """The remainder with the sign of the first value, in its unit."""
+    """Return the remainder with the sign of the first value, in its unit."""
     dividend, divisor = number(dividend), number(divisor)
     left, right = dividend.numbers_beside(divisor)
     if right == 0 or right != right or not is_finite(left):
@@ -211,7 +211,7 @@ def _fmod(dividend: Value, divisor: Value) -> Value:
 
 
 def _int(value: Value) -> Value:
-    """Rounded down; 1 for true."""
+    """Round down; true is 1."""
     quantity = _number_or_truth(value)
     if not math.isfinite(quantity.number):
         raise BadValue(f"`{quantity}` is not an integer")
@@ -229,7 +229,7 @@ def _number_or_truth(value: Value) -> Quantity:
 
 
 def _string(value: Value) -> Value:
-    """With six digits, and the unit."""
+    """Format a value with six digits, and the unit."""
     if isinstance(value, str):
         raise BadValue(f"`{text_of(value)}` is a string already")
     if isinstance(value, Quantity) and not isinstance(value.number, int):

@@ -125,7 +125,7 @@ def _parse(file: Path) -> Mapping[str, Any]:
 
 
 def _integer(digits: str) -> int | float:
-    """Return the number; infinity for one that no double can hold, which later checks refuse."""
+    """Return the number; infinity for one that no double can hold, which later checks reject."""
     return int(digits) if len(digits) < _MOST_DIGITS else float(digits)
 
 
@@ -202,7 +202,7 @@ def _obstacles(
 
 
 def _refuse_misspelt(properties: Mapping[str, Any]) -> None:
-    """Refuse a property with nearly the name of a missing one."""
+    """Reject a property whose name is similar to a missing one."""
     missing = [name for name in _PROPERTIES if properties.get(name) is None]
     for name in properties:
         if name not in _PROPERTIES and (meant := nearest(name, missing, strict=True)):
@@ -210,7 +210,7 @@ def _refuse_misspelt(properties: Mapping[str, Any]) -> None:
 
 
 def _floor_and_roof(properties: Mapping[str, Any]) -> tuple[float, float]:
-    """Return z of both, in meters."""
+    """Return z of floor and roof, in meters."""
     height_m = _number(properties, "height")
     base_m = _number(properties, "base", 0.0)
     top_m = base_m + height_m

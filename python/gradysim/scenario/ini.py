@@ -30,10 +30,10 @@ _DEEPEST = 100
 """Limit for nested includes; Python's stack has such a limit, too."""
 
 _MOST_BYTES = 64 * 2**20
-"""Of a file with all that it includes."""
+"""Largest size of a file with all its includes."""
 
 _MOST_INCLUDES = 1000
-"""Files that a file includes. Two files that each include two others, and so on, would be too many."""
+"""Largest number of included files. Two files that each include two others, and so on, would be too many."""
 
 _NOT_TEXT = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
 """Control characters that no text has. UTF-16 has the first one."""

@@ -25,15 +25,15 @@ _GROUP = re.compile(r"\*\.(\w+)(?:\[[^\]]*\])?\.", re.ASCII)
 """The beginning of a key of a group of nodes, or of a part of the network."""
 
 _GROUP_SIZE = re.compile(r"(?:\*\*?\.)?num[A-Z]\w*", re.ASCII)
-"""What gives the number of nodes of a group, or some other number."""
+"""Matches keys that set the number of nodes of a group, or some other number."""
 
 _PREFIXES = {GROUP_SIZE_OF_NODES: "*.", GROUP_SIZE: "*.nodes."}
-"""What those of the keys of a group begin with that are not of its nodes."""
+"""Prefixes of the keys of a group that do not belong to its nodes."""
 
 
 @dataclass(frozen=True)
 class KeyRow:
-    """One key: all texts as they are shown."""
+    """One key: all strings as they are shown."""
 
     key: str
     unit: str
@@ -43,14 +43,14 @@ class KeyRow:
 
 @dataclass(frozen=True)
 class KeySection:
-    """Keys that are written below the same thing."""
+    """Keys below the same module."""
 
     title: str
     rows: tuple[KeyRow, ...]
 
 
 def key_sections(natives: Iterable[type[NativeProtocol]] = ()) -> list[KeySection]:
-    """All keys, with the parameters of `natives`, the engine's protocols."""
+    """Return all keys, with the parameters of `natives`, the engine's protocols."""
     node_keys = (GROUP_SIZE_OF_NODES, GROUP_SIZE, *PROTOCOL_KEYS, PROTOCOL_PARAMETER)
     node_keys += NODE_KEYS[len(PROTOCOL_KEYS) :]
     native_rows = tuple(row for protocol in natives for row in _native_rows(protocol))
@@ -65,11 +65,11 @@ def key_sections(natives: Iterable[type[NativeProtocol]] = ()) -> list[KeySectio
 
 
 def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
-    """The keys that match `pattern`, if it has a `*` or `?`; otherwise those of whose texts one contains it.
+    """Return the keys that match `pattern`, if it has a `*` or `?`; otherwise those that contain it.
 
-    So a key is found by its values and its meaning, too. Case does not matter. Keys are listed for `nodes`
-    and any index, `wlan[*]`: what is asked for one index or a range is found there, and what is asked for
-    another group, `*.uavs[0].mobility.speed`, `*.numUavs`. If no key matches, those that begin so are listed.
+    Values and meanings are searched, too. Case does not matter. Keys are listed for `nodes` and any index,
+    `wlan[*]`. A pattern with an index, a range or another group, such as `*.uavs[0].mobility.speed` or
+    `*.numUavs`, finds them there. If no key matches, keys with that prefix are listed.
     """
     everything = list(sections)
     wanted = (pattern, _group_as_nodes(pattern, key_meant(everything, pattern)))
@@ -78,7 +78,10 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 
 
 def key_meant(sections: Iterable[KeySection], pattern: str) -> str:
-    """The end of a message about a pattern that matches none, "; did you mean ...?"; "" if it is no slip."""
+    """Return the end of a message about a pattern without a match, ".
+
+    Did you mean ...?"; "" without a typo.
+    """
     keys = [row.key.partition(" ")[0].split(".") for section in sections for row in section.rows]
     meant = nearest(pattern, (".".join(key[-length:]) for length in (1, 2) for key in keys), strict=True)
     return f"; did you mean `{meant}`?" if meant else ""
@@ -99,7 +102,7 @@ def _matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 
 
 def _group_as_nodes(pattern: str, meant: str) -> str:
-    """The pattern for the group `nodes`; `meant` is what `key_meant` says of it."""
+    """Return the pattern for the group `nodes`; `meant` is the result of `key_meant`."""
     if _GROUP_SIZE.fullmatch(pattern) and (not meant or GROUP_SIZE_OF_NODES.path in meant):
         return f"{_PREFIXES[GROUP_SIZE_OF_NODES]}{GROUP_SIZE_OF_NODES.path}"
     group = _GROUP.match(pattern)
@@ -117,7 +120,7 @@ def _rows(prefix: str, keys: Iterable[Key]) -> tuple[KeyRow, ...]:
 
 
 def _native_rows(protocol: type[NativeProtocol]) -> Iterator[KeyRow]:
-    """The protocol itself, and its parameters."""
+    """Yield the protocol itself, and its parameters."""
     same = f"the same as {protocol._python_class}" if protocol._python_class else ""
     yield KeyRow(f'*.nodes[*].protocol.typename = "{protocol.__name__}"', same, "", protocol._meaning)
     for name, kind in parameters_of(protocol).items():
@@ -130,6 +133,6 @@ def _native_rows(protocol: type[NativeProtocol]) -> Iterator[KeyRow]:
 
 
 def _meaning(key: Key) -> str:
-    """What a key means, after the models that read it."""
+    """Return the meaning of a key, after the models that read it."""
     models = key.read_by.shown if key.read_by else ""
     return f"{models}: {key.meaning}" if models else key.meaning

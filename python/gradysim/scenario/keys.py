@@ -1,4 +1,4 @@
-"""Every key that an .ini file may hold, apart from options.
+"""All keys of .ini files, except options.
 
 The names are INET's and OMNeT++'s. The engine declares the keys of its fields next to its structs
 (cpp/netsim/config); all others are declared here, in the same form. Lists of keys show them in the order of
@@ -32,7 +32,7 @@ _ENGINE = engine_keys()
 
 
 def engine_key(target: str) -> Key:
-    """The key of a field of the engine: "radio.carrier_hz"."""
+    """Return the key of a field of the engine: "radio.carrier_hz"."""
     return next(key for key in _ENGINE[target.partition(".")[0]] if key.target == target)
 
 
@@ -42,7 +42,7 @@ def _names(target: str) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class _Below:
-    """Makes keys below one path whose values go to one struct."""
+    """Creates keys below one path whose values go to one struct."""
 
     path: str
     struct: str
@@ -66,16 +66,16 @@ RADIO_MEDIA = ReadBy("medium.typename", _names("medium.typename")[:2], shown="")
 
 
 def has_radios(medium_typename: object) -> bool:
-    """Whether this medium has radios, so that powers make ranges; in others the range itself counts."""
+    """Return whether this medium has radios, so that powers determine ranges; in others the range counts."""
     return medium_typename in RADIO_MEDIA.names
 
 
 MASSLESS = "MasslessMobility"
 STATIONARY = "StationaryMobility"
 STATIC_GRID = "StaticGridMobility"
-"""A node that stands still, and starts in a grid."""
+"""A stationary node whose initial position is in a grid."""
 ARDUPILOT = "ArdupilotMobility"
-"""A node flown by an ArduCopter of its own."""
+"""A node flown by its own ArduCopter."""
 
 # ---- nodes -------------------------------------------------------------------------------------------------
 
@@ -97,7 +97,7 @@ PROTOCOL_TYPENAME = _protocol(
     "none",
 )
 PROTOCOL_KEYS: tuple[Key, ...] = (PROTOCOL_CLASS, PROTOCOL_TYPENAME)
-"""The two ways to say what a node runs; of both the first match wins."""
+"""The two ways to choose the protocol of a node; the first match of both wins."""
 
 PROTOCOL_PARAMETER = _protocol(
     "ATTRIBUTE",
@@ -112,7 +112,7 @@ PROTOCOL_PARAMETER = _protocol(
     " should be a time; if it is not, there is a warning. All others accept any quantity",
     "the class's",
 )
-"""Stands for all of them in lists of keys; `parameters_of` knows those of a class."""
+"""Represents all parameters in lists of keys; `parameters_of` returns those of a class."""
 
 GROUP_SIZE = Key(
     "count",
@@ -121,7 +121,7 @@ GROUP_SIZE = Key(
     "`*.uavs.count` means the same as `*.numUavs`",
     default="none",
 )
-"""Below the group, `*.uavs.count`; `*.numUavs` means the same."""
+"""Below the group, `*.uavs.count`; same as `*.numUavs`."""
 
 GROUP_SIZE_OF_NODES = replace(
     GROUP_SIZE,
@@ -213,7 +213,7 @@ MOBILITY_KEYS: tuple[Key, ...] = (
 # ---- network interfaces ------------------------------------------------------------------------------------
 
 WLAN = "wlan[0]"
-"""What the paths of all keys of an interface begin with; for the others see `at_interface`."""
+"""First part of the paths of all keys of an interface; for other interfaces see `at_interface`."""
 
 _INDEXED = re.compile(r"\bwlan\[(?:0|[1-9]\d*|\d*\.\.\d*)\]", re.ASCII)
 
@@ -254,12 +254,12 @@ BAND_BESIDE_FREQUENCY = replace(BAND_NAME, target="band.beside_frequency")
 
 
 def at_interface(path: str, index: int) -> str:
-    """The path of a key of wlan[0] for another interface."""
+    """Return the path of a key of wlan[0] for another interface."""
     return path.replace(WLAN, f"wlan[{index}]", 1)
 
 
 def interface_in(key: str) -> re.Match[str] | None:
-    """Where the key of a line names one interface, or a range: `wlan[1]`, `wlan[2..5]`."""
+    """Return the match of one interface, or a range, in the key of a line: `wlan[1]`, `wlan[2..5]`."""
     return _INDEXED.search(key)
 
 
@@ -279,9 +279,9 @@ OBSTACLE_LOSS_KEYS = tuple(
 PATH_LOSS_KEYS = tuple(key for key in _ENGINE["medium"] if key.path.startswith("radioMedium.pathLoss."))
 
 MATERIALS = _names("obstacle.material")
-"""The names in the engine's table of materials."""
+"""Names in the engine's table of materials."""
 DEFAULT_MATERIAL = str(engine_key("obstacle.material").defaults[""])
-"""Of obstacles that do not say theirs."""
+"""Material of obstacles without one."""
 
 _with_obstacles = ReadBy("medium.obstacle_loss", _names("medium.obstacle_loss")[1:], shown="")
 _environment = _Below("environment", "environment", _with_obstacles)
@@ -385,10 +385,10 @@ WLAN_KEYS: tuple[Key, ...] = (
     *_ENGINE["radio"],
     *_ENGINE["antenna"],
 )
-"""Those below a network interface, here wlan[0]."""
+"""Keys below a network interface, here wlan[0]."""
 
 NODE_KEYS: tuple[Key, ...] = (*PROTOCOL_KEYS, *MOBILITY_KEYS, NUM_WLAN_INTERFACES, *WLAN_KEYS)
-"""Those below a node, as if each had one interface."""
+"""Keys below a node, as if each had one interface."""
 
 NETWORK_KEYS: tuple[Key, ...] = (
     *(key for key in _ENGINE["medium"] if key not in OBSTACLE_LOSS_KEYS),
@@ -399,7 +399,7 @@ NETWORK_KEYS: tuple[Key, ...] = (
     *COMMUNICATION_MEDIUM_KEYS,
     *COORDINATE_SYSTEM_KEYS,
 )
-"""Those below the network."""
+"""Keys below the network."""
 
 NETWORK_MODULES = frozenset(key.path.partition(".")[0] for key in NETWORK_KEYS)
 """Names below the network that are not groups of nodes."""

@@ -79,9 +79,9 @@ def load_scenarios(
 class Study(Sequence[Scenario]):
     """The wanted runs of a configuration, checked. A scenario is made when it is asked for.
 
-    The first `_CHECKED_IN_FULL` networks are checked in full, and then those with values that are in none of
-    them. Beyond `_MOST_CHECKED` networks, values are checked by themselves. Making a scenario that was not
-    checked in full raises ConfigError for what is wrong.
+    The first `_CHECKED_IN_FULL` networks are checked in full, and then those with new values. Beyond
+    `_MOST_CHECKED` networks, values are checked separately. Making a scenario that was not checked in full
+    raises ConfigError for its errors.
 
     Attributes:
         config: Name of the configuration.
@@ -147,9 +147,9 @@ class Study(Sequence[Scenario]):
     def _errors_of_others(
         self, lines: Sequence[Entry], known: Sequence[ConfigError], folder: Path
     ) -> list[ConfigError]:
-        """Return what is wrong with the values of lines without an error, as if the others were not there.
+        """Return the errors in the values of lines without an error, as if the other lines were not there.
 
-        For want of the others nodes may be missing: what says so is left out.
+        Nodes may be missing without the other lines. Errors about missing nodes are left out.
         """
         wrong = {error.source for error in known}
         others = [line for line in lines if line.source not in wrong]

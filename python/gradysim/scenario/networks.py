@@ -31,7 +31,7 @@ from gradysim.scenario.unknown_keys import (
 )
 
 Key = tuple[int, ...]
-"""The places of the values that the network of a run is made of."""
+"""Places of the values of a run's network."""
 
 
 class Network(NamedTuple):

@@ -24,16 +24,16 @@ _STRONGEST_W = 1
 
 @dataclass(frozen=True, eq=False)
 class ParameterType:
-    """What the value of a parameter has to be.
+    """Type of a parameter.
 
     Attributes:
         expected: Its name in messages, after "expected".
-        convert: Checks a value and returns what is to be stored. Raises BadValue.
+        convert: Checks a value and returns the stored value. Raises BadValue.
         is_text: Whether it is a string: an override needs no quotes.
         names: The strings that are allowed, if not all are.
         is_file: Whether the string is the name of a file, relative to the .ini file.
         unit: For a list of keys: the unit, or what it is instead ("integer").
-        show: Writes what is stored as it would stand in a file, in `unit`.
+        show: Writes a stored value in the format of a file, in `unit`.
         has_all_between: Whether every value between two valid values is valid, whatever else the file says.
     """
 
@@ -49,7 +49,7 @@ class ParameterType:
 
 @dataclass(frozen=True)
 class _Range:
-    """The range of a number, and one value beside it that is allowed too."""
+    """The range of a number, and one additional valid value."""
 
     at_least: float | None = None
     above: float | None = None

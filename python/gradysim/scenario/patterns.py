@@ -48,7 +48,7 @@ class Pattern:
 
     @cached_property
     def text(self) -> str:
-        """The pattern as it is written."""
+        """The pattern as written."""
         return "".join(token.text for token in self.tokens)
 
     @cached_property
@@ -83,13 +83,16 @@ class Pattern:
         return Pattern(tuple(tokens))
 
     def matches(self, path: str) -> bool:
-        """Whether the whole of `path` matches. Takes steps in proportion to the product of both lengths."""
+        """Return whether the whole of `path` matches.
+
+        The time is proportional to the product of both lengths.
+        """
         if self.literal is not None:  # compiling a regular expression takes longer than reading the line
             return path == self.literal
         return len(path) in _ends_of_matches(self._steps, path)
 
     def literal_prefix(self) -> str:
-        """The text that everything that matches begins with."""
+        """Common prefix of all matching paths."""
         characters: list[str] = []
         for token in self.tokens:
             if token.literal is None:

@@ -23,13 +23,13 @@ from weakref import WeakValueDictionary
 from gradysim.protocol.interface import IProtocol
 
 _loading = threading.RLock()
-"""`sys.path` and `sys.modules` belong to the whole process."""
+"""`sys.path` and `sys.modules` are shared by the whole process."""
 
 _running = threading.RLock()
 """Held while the files of one scenario are importable during its run."""
 
 _being_loaded: set[Path] = set()
-"""Files whose code is running as that of a module now."""
+"""Files whose code is running as a module now."""
 
 
 class BeingLoadedError(ImportError):
@@ -40,7 +40,7 @@ class ModuleLoader:
     """Loads each file once. Another loader loads the file again.
 
     Attributes:
-        name: Tells loaders apart, also in other processes.
+        name: Distinguishes loaders, also in other processes.
     """
 
     def __init__(self, name: str = "") -> None:
@@ -159,12 +159,12 @@ _ORIGIN = "_gradysim_origin"
 
 @dataclass(frozen=True)
 class Origin:
-    """Where a class was loaded from. A scenario that goes to another process has it instead of the class.
+    """Origin of a class. A scenario that goes to another process has it instead of the class.
 
     Attributes:
         file: The file, with its whole path.
         name: The name of the class in it.
-        loader: What loaded it.
+        loader: The loader of the class.
     """
 
     file: Path
@@ -187,13 +187,13 @@ def _origin_in_this_process(file: Path, name: str, loader: str) -> Origin:
 
 
 def remember_origin(cls: type[IProtocol], origin: Origin) -> None:
-    """Note where a class was loaded from. The first place counts."""
+    """Store the origin of a class. The first one counts."""
     if _ORIGIN not in vars(cls):
         setattr(cls, _ORIGIN, origin)
 
 
 def origin_of(cls: type[IProtocol]) -> Origin | None:
-    """Return where a class was loaded from; None if it was imported by the name of its module."""
+    """Return the origin of a class; None if it was imported by the name of its module."""
     origin: Origin | None = vars(cls).get(_ORIGIN)
     return origin
 

@@ -171,7 +171,7 @@ _CALLBACKS = {
     name: tuple(inspect.signature(vars(IProtocol)[name]).parameters)
     for name in ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
 }
-"""Their arguments, with `self`. All are passed by position."""
+"""Arguments of the callbacks, with `self`. All are passed by position."""
 
 
 def check_contract(protocol: type[IProtocol]) -> None:

@@ -1,4 +1,4 @@
-"""Reads files that a scenario names. Devices and pipes may have no end or no writer: they are refused."""
+"""Reads files named in a scenario. Devices and pipes may have no end or no writer: they are rejected."""
 
 import stat
 from pathlib import Path

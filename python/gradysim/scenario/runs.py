@@ -39,7 +39,7 @@ OF_NO_RUN = (
     "abstract",
     *LABEL_OPTIONS,
 )
-"""Options that say which runs there are, or that do not change what happens in a run."""
+"""Options that determine the runs, or that do not change the events of a run."""
 
 _MOST_NAMES = 3
 """Names of files that a message lists."""
@@ -208,7 +208,7 @@ def whole_seed(seed: object) -> int:
 
 
 def checked_seed(seed: object) -> int:
-    """Return the seed of a run as an int. Raises TypeError and ValueError for what is not a seed."""
+    """Return the seed of a run as an int. Raises TypeError and ValueError for other values."""
     whole = whole_seed(seed)
     if not 0 <= whole <= LARGEST_SEED:
         raise ValueError(f"seed = {whole}: it is out of range; expected 0 to {LARGEST_SEED}")

@@ -55,11 +55,11 @@ class Key:
 
     Attributes:
         path: Below the node, or below the network for NETWORK_KEYS.
-        target: "struct.field" that the value is for. Of two keys with one target, the first match wins.
-        kind: What the value has to be.
+        target: Target of the value, "struct.field". Of two keys with one target, the first match wins.
+        kind: Type of the value.
         meaning: One sentence for lists of keys.
-        default: As it would be written; "" for a key with `defaults`.
-        read_by: Which models read it; None if all do.
+        default: Default as written in a file; "" for a key with `defaults`.
+        read_by: Models that read it; None if all do.
         defaults: {variant: value} of a field of the engine; the variant "" is the usual one.
     """
 
@@ -73,7 +73,7 @@ class Key:
 
     @property
     def written(self) -> str:
-        """The path as people write it in a pattern."""
+        """The path as written in a pattern."""
         return self.path.replace("[0]", "[*]")
 
     @property
@@ -98,7 +98,7 @@ class Key:
 
 @cache
 def engine_keys() -> Mapping[str, tuple[Key, ...]]:
-    """The keys of the engine's fields, {struct: its keys in the order of their declarations}."""
+    """Return the keys of the engine's fields, {struct: its keys in the order of their declarations}."""
     keys: dict[str, list[Key]] = {}
     for row in json.loads(FILE.read_text(encoding="utf-8")):
         read_by = row["read_by"]
@@ -117,7 +117,7 @@ def engine_keys() -> Mapping[str, tuple[Key, ...]]:
 
 
 def _kind(kind: str, **details: Any) -> ParameterType:
-    """The type of a declaration: `kind` is the name that cpp/netsim/config/field.hpp gives it."""
+    """Return the type of a declaration: `kind` is its name in cpp/netsim/config/field.hpp."""
     match kind:
         case "quantity":
             return quantity(**details)
@@ -207,7 +207,7 @@ OPTION_KEYS: tuple[Key, ...] = (
 OPTIONS: dict[str, ParameterType] = {key.path: key.kind for key in OPTION_KEYS}
 
 NETWORK = "network"
-"""The option that says what paths begin with: OMNeT++'s, of which nothing else counts."""
+"""Option for the first name of paths. Nothing else of OMNeT++'s option is used."""
 
 SECTION_OPTIONS = ("extends", "abstract")
 """Options that belong to a section and cannot be given on the command line."""

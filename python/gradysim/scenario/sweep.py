@@ -52,13 +52,13 @@ _HIDDEN_IN_HASH = {name: f"${{{name}}}" for name in ("runnumber", REPETITION, "s
 """Placeholders for variables in a settings hash: runs that differ only in these have the same settings."""
 
 MOST_CHARACTERS = 2**24
-"""Of all values of a configuration, and of a value after its variables have been replaced."""
+"""Limit for all values of a configuration, and for a value after the replacement of its variables."""
 
 _MOST_VARIABLES = 1000
-"""Of a configuration."""
+"""Largest number of variables of a configuration."""
 
 _MOST_DIGITS = 300
-"""Of the numbers of a range, which are written without exponents."""
+"""Largest number of digits in a range, whose numbers are written without exponents."""
 
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _DEFINITION = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)", re.ASCII | re.DOTALL)
@@ -72,11 +72,11 @@ _NOT_IN_FILE_NAMES = re.compile(r"[^\w!()\[\];=+@~.#,-]", re.ASCII)
 
 @dataclass(frozen=True)
 class IterationVariable:
-    """One variable with the values that it takes.
+    """One variable with its values.
 
     Attributes:
-        name: As the file says, or a number.
-        values: Strings that take its place, in their order.
+        name: Name in the file, or a number.
+        values: Strings that replace it, in order.
         source: Where it is defined.
         follows: Name of the variable that it is in lock-step with, or "".
     """

@@ -94,8 +94,8 @@ UNITS_IN_NAMES = (
 
 
 Number = int | Fraction | float
-"""An int was written without point and exponent; a Fraction is any other exact number; a float is inf, nan
-or a rounded result."""
+"""An int was written without point and exponent. A Fraction is any other exact number. A float is inf, nan or
+a rounded result."""
 
 
 def unit_named(name: str) -> Unit:
