@@ -1,8 +1,13 @@
 """gradysim: one protocol, run on ever more realistic networks of flying nodes."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gradysim import installation
+
+if TYPE_CHECKING:
+    from gradysim.stepping import start
+
+__all__ = ["__version__", "start"]
 
 installation.check(__path__)
 
@@ -14,7 +19,11 @@ An editable installation adds `editable`, since its sources may have changed aft
 
 
 def __getattr__(name: str) -> Any:
-    """Look up `__version__` on first use, since importlib.metadata is slow to import."""
+    """Look up the public names on first use, since what they import is slow to import."""
+    if name == "start":
+        from importlib import import_module
+
+        return import_module("gradysim.stepping").start
     if name == "__version__":
         from importlib.metadata import distribution
 

@@ -6,15 +6,22 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 
-@contextmanager
-def global_random_seeded(seed: int) -> Iterator[None]:
-    """Seed the module `random` inside the block. Afterwards restore the state that the script had."""
-    before = random.getstate()
-    random.seed(seed)
-    try:
-        yield
-    finally:
-        random.setstate(before)
+class GlobalRandom:
+    """The state of the module `random` for one run, which goes on where it was each time it is in use."""
+
+    def __init__(self, seed: int) -> None:
+        self._state = random.Random(seed).getstate()
+
+    @contextmanager
+    def in_use(self) -> Iterator[None]:
+        """Give `random` the state of the run inside the block. Afterwards restore that of the script."""
+        before = random.getstate()
+        random.setstate(self._state)
+        try:
+            yield
+        finally:
+            self._state = random.getstate()
+            random.setstate(before)
 
 
 @contextmanager

@@ -101,15 +101,10 @@ def capture_errors() -> Iterator[None]:
         raise CaptureError(str(error)) from None
 
 
-@contextmanager
-def captures_completed_after_failure(network: "Network") -> Iterator[None]:
+def complete_captures_after(failure: BaseException, network: "Network") -> None:
     """Complete the captures after an exception; a file without its end becomes a note on the exception."""
     try:
-        yield
-    except BaseException as failure:
-        try:
-            with capture_errors():
-                network.close_captures()
-        except CaptureError as error:
-            failure.add_note(str(error))
-        raise
+        with capture_errors():
+            network.close_captures()
+    except CaptureError as error:
+        failure.add_note(str(error))

@@ -17,8 +17,8 @@ from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.integrated.autopilot_nodes import AutopilotNodes
 from gradysim.integrated.capture import (
     capture_errors,
-    captures_completed_after_failure,
     checked_captures,
+    complete_captures_after,
     start_captures,
 )
 from gradysim.integrated.compiled_part import load_netsim
@@ -49,10 +49,10 @@ if TYPE_CHECKING:
 
 
 class IntegratedRun(ScenarioRun):
-    """A scenario on the compiled engine: built by the constructor, run once by `execute`.
+    """A scenario on the compiled engine: built by the constructor, then run at once or step by step.
 
-    Errors of a native protocol raise NativeProtocolError from `execute`. A capture file that could not
-    be completed raises CaptureError after all else is done, or adds a note to an earlier exception.
+    Errors of a native protocol raise NativeProtocolError. A capture file that could not be completed
+    raises CaptureError after all else is done, or adds a note to an earlier exception.
     """
 
     mode = "integrated"
@@ -74,7 +74,7 @@ class IntegratedRun(ScenarioRun):
         Args:
             scenario: One of those that `load_scenarios` returns.
             captures: {id of a node: pcap file of its sent and received frames}. `wlan[1]` of a node with
-                FILE.pcap writes FILE-wlan1.pcap. The files are complete when `execute` returns or raises.
+                FILE.pcap writes FILE-wlan1.pcap. The files are complete when the run has ended.
             fates_at: Ids of the nodes whose results have outcomes and interferers:
                 `NodeResult.frame_fates`, `interferers` and `message_fates`. They do not change or slow the
                 run.
@@ -116,6 +116,7 @@ class IntegratedRun(ScenarioRun):
         with self._building():
             self._make_protocols()
         self._autopilots.take_off()
+        self._built()
 
     def _make_protocols(self) -> None:
         scenario = self._scenario
@@ -164,25 +165,32 @@ class IntegratedRun(ScenarioRun):
 
     @contextmanager
     def _execution(self) -> Iterator[None]:
-        with captures_completed_after_failure(self._network), super()._execution():
+        with super()._execution():
             try:
                 yield
             except load_netsim().ProtocolError as failure:
                 raise self._native_failure(failure) from None
-            finally:
-                self._handlers.finalize_after_failure()
-                self._autopilots.close()
-                self._network.release_protocols()
 
-    def _start(self) -> Callable[[int], bool]:
+    def _close_after_failure(self, failure: BaseException) -> None:
+        self._handlers.finalize_after_failure()
+        complete_captures_after(failure, self._network)
+
+    def _release(self) -> None:
+        self._autopilots.close()
+        self._network.release_protocols()
+
+    def _parts_of(self, node_id: int) -> tuple[Any, Any]:
+        return self._encapsulators[node_id], self._nodes[node_id]
+
+    def _start(self) -> Callable[[float, int], bool]:
         self._handlers.initialize()
         self._network.initialize()
         self._lint.after_initialize(encapsulator.protocol for encapsulator in self._encapsulators)
         self._autopilots.initialize()
-        handlers, limit_s, factor = self._handlers, self._scenario.sim_time_limit_s, self._real_time_factor
+        handlers, factor = self._handlers, self._real_time_factor
         if factor == 0:
-            return lambda max_events: handlers.run_until(limit_s, max_events)
-        return RealTimeRun(handlers.run_until, limit_s, factor, lambda: handlers.held_up_s).advance
+            return handlers.run_until
+        return RealTimeRun(handlers.run_until, factor, lambda: handlers.held_up_s).advance
 
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
         return describe(self._scenario, self.mode, recorded, ranges_m(self._scenario))

@@ -22,7 +22,7 @@ from gradysim.simulator.handler.interface import INodeHandler
 
 
 class PrototypeRun(ScenarioRun):
-    """A scenario on the plain simulator: built by the constructor, run once by `execute`."""
+    """A scenario on the plain simulator: built by the constructor, then run at once or step by step."""
 
     mode = "prototype"
 
@@ -62,12 +62,17 @@ class PrototypeRun(ScenarioRun):
             self._simulator, self._ledger = build_simulation(
                 scenario, handlers, real_time, self._recorders, self._recorder
             )
+        self._built()
 
-    def _start(self) -> Callable[[int], bool]:
+    def _start(self) -> Callable[[float, int], bool]:
         simulator = self._simulator
         simulator.run_events(0)  # only initializes the protocols
         self._lint.after_initialize(node.protocol_encapsulator.protocol for node in simulator.nodes)
-        return lambda max_events: not simulator.run_events(max_events)
+        return simulator.run_until
+
+    def _parts_of(self, node_id: int) -> tuple[Any, Any]:
+        node = self._simulator.nodes[node_id]
+        return node.protocol_encapsulator, node
 
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
         nodes = self._scenario.nodes
@@ -89,6 +94,12 @@ class PrototypeRun(ScenarioRun):
 
     def _finish(self) -> None:
         self._simulator.finalize(complete=self._complete)
+
+    def _close_after_failure(self, failure: BaseException) -> None:
+        """Do nothing: the simulator finalizes its handlers itself."""
+
+    def _release(self) -> None:
+        """Do nothing: the simulator does this itself."""
 
     def _measured(self) -> Mapping[str, Any]:
         simulator, ledger = self._simulator, self._ledger

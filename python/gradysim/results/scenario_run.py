@@ -1,4 +1,4 @@
-"""Executes a scenario in chunks of events, the same way in both modes, and makes its result.
+"""Runs a scenario the same way in both modes, at once or step by step, and makes its result.
 
 The simulator executes some events, then control comes back here. So a run can report progress and be stopped.
 """
@@ -7,15 +7,18 @@ import logging
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field
+from math import inf, isnan
 from time import perf_counter, process_time
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
-from gradysim.encapsulator.run_context import gc_paused, global_random_seeded
+from gradysim.encapsulator.run_context import GlobalRandom, gc_paused
 from gradysim.replay.chunk import RawChunk
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
 from gradysim.results.run_log import RecordEvent, RunLog
+from gradysim.scenario.errors import did_you_mean
 from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario, require_scenario
@@ -34,10 +37,39 @@ MAX_EVENTS = 1 << 20
 their number of events: it would grow without bound."""
 
 
-class ScenarioRun(ABC):
-    """A scenario in one of the modes: built by the constructor, run once by `execute`.
+@dataclass(frozen=True)
+class RunNode:
+    """A node of a run.
 
-    `execute` may raise; `result` returns at any time what was computed until then.
+    Attributes:
+        id: Its id, 0 to n-1.
+        name: Its name in the scenario, such as `uavs[2]`.
+        protocol: Its protocol, or, of a native protocol, an instance of the class that shows its parameters.
+        provider: What the protocol acts through: `provider.tracked_variables`, `provider.current_time()`.
+    """
+
+    id: int
+    name: str
+    protocol: Any
+    provider: Any
+    _placed: Any = field(repr=False)
+
+    @property
+    def position(self) -> tuple[float, float, float]:
+        """Current position (x, y, z) in meters."""
+        x, y, z = self._placed.position
+        return (x, y, z)
+
+
+class ScenarioRun(ABC):
+    """A scenario in one of the modes: built by the constructor, then run at once or step by step.
+
+    `execute` runs it to its end. `run_until` and `step` run a part of it; `finish` ends it there, and so does
+    the end of a `with` block. `result` returns at any time what was computed until then.
+
+    An exception in a protocol is raised with a note of node, time and callback. It ends the run without
+    `finish` of the protocols. So does an exception in a handler, such as that of an assertion that failed.
+    Handlers are finalized in any case.
     """
 
     mode: ClassVar[Mode]
@@ -52,14 +84,34 @@ class ScenarioRun(ABC):
         """Start measuring the cost. Raises TypeError and ValueError for wrong arguments."""
         require_scenario(scenario)
         self._scenario = scenario
-        self._started_s = (perf_counter(), process_time())
-        self._cost_s = (0.0, 0.0)
-        self._setup_s = 0.0
-        self._complete = False
+        self._wall_s = self._cpu_s = self._setup_s = 0.0
+        self._constructed_s = (perf_counter(), process_time())
+        self._advance: Callable[[float, int], bool] | None = None
+        self._has_begun = self._ended = self._complete = False
+        self._random = GlobalRandom(scenario.seed)
         self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes), scenario.vector_record_interval_s)
         self._replay = replay
         self._log_level = log_level
+
+    @property
+    def time_s(self) -> float:
+        """Simulated time in seconds."""
+        return self._now()
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether the run reached its time limit, was finished, or failed."""
+        return self._ended
+
+    def node(self, name: str) -> RunNode:
+        """Return the node of that name, such as `groundStation` or `uavs[2]`. KeyError if there is none."""
+        names = [spec.name for spec in self._scenario.nodes]
+        if name not in names:
+            raise KeyError(f"no node is called {name!r}{did_you_mean(name, names)}")
+        index = names.index(name)
+        encapsulator, placed = self._parts_of(index)
+        return RunNode(index, name, encapsulator.protocol, encapsulator.provider, placed)
 
     def execute(
         self,
@@ -68,49 +120,112 @@ class ScenarioRun(ABC):
     ) -> None:
         """Run to the time limit, or until `should_stop()` returns True, then `finish` the protocols.
 
-        `should_stop()` and `progress(sim_time_s)` are called about ten times per second of wall time. After a
+        `should_stop()` and `progress(time_s)` are called about ten times per second of wall time. After a
         KeyboardInterrupt, too, protocols are finished before it is raised again. Python's `random` is as
         before when this returns or raises.
-
-        An exception in a protocol is raised with a note of node, time and callback. It ends the run without
-        `finish`. So does an exception in a handler, such as that of an assertion that failed. Handlers are
-        finalized in any case.
         """
-        self._setup_s = perf_counter() - self._started_s[0]
-        interrupt: KeyboardInterrupt | None = None
+        with self:
+            self.run_until(progress=progress, should_stop=should_stop)
+
+    def run_until(
+        self,
+        time_s: float = inf,
+        *,
+        progress: Callable[[float], None] | None = None,
+        should_stop: Callable[[], bool] | None = None,
+    ) -> bool:
+        """Run all events up to a simulated time, those at that time included. Return whether the run goes on.
+
+        At the time limit of the scenario the protocols are finished, and the run has ended. `progress` and
+        `should_stop` are those of `execute`. ValueError if `time_s` is in the past, or is NaN.
+        """
+        if isnan(time_s) or time_s < self._now():
+            raise ValueError(f"cannot run until {time_s!r} s: it is {self._now()} s already")
+        limit_s = self._scenario.sim_time_limit_s
+        until_s = min(time_s, limit_s)
+
+        def advance(max_events: int) -> bool:
+            return self._advanced(until_s, max_events)
+
+        return self._run(lambda: run_in_chunks(advance, self._now, progress, should_stop), until_s == limit_s)
+
+    def step(self) -> bool:
+        """Run one event. Return whether the run goes on, which it does not after the last event."""
+        return self._run(lambda: self._advanced(self._scenario.sim_time_limit_s, 1), True)
+
+    def finish(self) -> None:
+        """End the run now: finish the protocols and finalize the handlers. No-op if the run has ended.
+
+        Before the time limit, the result is marked as interrupted.
+        """
+        if self._ended:
+            return
+        if self._has_begun:
+            self._end()
+        else:
+            self._ended = True
+            self._release()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.finish()
+
+    def _run(self, advance: Callable[[], bool], to_the_end: bool) -> bool:
+        """Begin before the first call, and call `advance`. Return whether the run goes on."""
+        if self._ended:
+            return False
+        with self._measuring_cost():
+            try:
+                with self._execution():
+                    if self._advance is None:
+                        self._begin()
+                    self._complete = advance() and to_the_end
+            except KeyboardInterrupt:
+                raise  # the run may go on, or be finished
+            except BaseException as failure:
+                self._fail(failure)
+                raise
+        if self._complete:
+            self._end()
+        return not self._ended
+
+    def _begin(self) -> None:
+        self._has_begun = True
+        if self._replay is not None:
+            self._replay.begin(self._described(self._replay.recorded))
+        self._advance = self._start()
+
+    def _advanced(self, until_s: float, max_events: int) -> bool:
+        """Run the next events, and record them if the run is recorded; return if `until_s` is reached."""
+        assert self._advance is not None
+        is_reached = self._advance(until_s, max_events)
+        if self._replay is not None:
+            for chunk in self._recorded_chunks(cut=self._replay.wants_chunk()):
+                self._replay.add(chunk)
+        return is_reached
+
+    def _end(self) -> None:
+        """Finish the protocols and release what the run holds."""
+        with self._measuring_cost():
+            try:
+                with self._execution():
+                    self._finish()
+                    self._end_replay()
+            except BaseException as failure:
+                self._fail(failure)
+                raise
+            self._ended = True
+            self._release()
+
+    def _fail(self, failure: BaseException) -> None:
+        self._ended, self._complete = True, False
         try:
-            with self._execution():
-                try:
-                    if self._replay is not None:
-                        self._replay.begin(self._described(self._replay.recorded))
-                    advance = self._recorded(self._start())
-                    self._complete = run_in_chunks(advance, self._now, progress, should_stop)
-                except KeyboardInterrupt as pressed:
-                    interrupt = pressed
-                self._finish()
-                self._end_replay()
-                if interrupt is not None:
-                    raise interrupt
-        except BaseException:
-            self._complete = False
+            self._close_after_failure(failure)
             self._end_replay()
-            raise
         finally:
-            self._cost_s = (perf_counter() - self._started_s[0], process_time() - self._started_s[1])
-
-    def _recorded(self, advance: Callable[[int], bool]) -> Callable[[int], bool]:
-        """Return what runs the next events, and records them if the run is recorded."""
-        replay = self._replay
-        if replay is None:
-            return advance
-
-        def advance_and_record(max_events: int) -> bool:
-            is_complete = advance(max_events)
-            for chunk in self._recorded_chunks(cut=replay.wants_chunk()):
-                replay.add(chunk)
-            return is_complete
-
-        return advance_and_record
+            self._release()
 
     def _end_replay(self) -> None:
         replay, self._replay = self._replay, None
@@ -119,6 +234,15 @@ class ScenarioRun(ABC):
         for chunk in self._recorded_chunks(last=True):
             replay.add(chunk)
         replay.close({"time_s": self._now(), "complete": self._complete})
+
+    @contextmanager
+    def _measuring_cost(self) -> Iterator[None]:
+        began_s = (perf_counter(), process_time())
+        try:
+            yield
+        finally:
+            self._wall_s += perf_counter() - began_s[0]
+            self._cpu_s += process_time() - began_s[1]
 
     def findings(self) -> list[Finding]:
         """Return what lint checks found in the protocols up to now."""
@@ -136,8 +260,8 @@ class ScenarioRun(ABC):
             file_hashes=scenario.file_hashes,
             seed=scenario.seed,
             mode=self.mode,
-            wall_s=self._cost_s[0],
-            cpu_s=self._cost_s[1],
+            wall_s=self._wall_s,
+            cpu_s=self._cpu_s,
             setup_s=self._setup_s,
             interrupted=not self._complete,
             nodes=tuple(self._node_results()),
@@ -161,9 +285,15 @@ class ScenarioRun(ABC):
         with gc_paused(), self._protocol_environment():
             yield
 
+    def _built(self) -> None:
+        """Note what the constructor took, at its end."""
+        wall_s, cpu_s = self._constructed_s
+        self._wall_s = self._setup_s = perf_counter() - wall_s
+        self._cpu_s = process_time() - cpu_s
+
     @contextmanager
     def _execution(self) -> Iterator[None]:
-        """Set up what callbacks of protocols need; a mode adds what it has to close after the run."""
+        """Set up what callbacks of protocols need."""
         with self._protocol_environment():
             yield
 
@@ -174,12 +304,20 @@ class ScenarioRun(ABC):
         log = RunLog(
             self._log_level, self._scenario.nodes, self._now, self._active_node, self._log_recorder()
         )
-        with log, siblings, global_random_seeded(self._scenario.seed):
+        with log, siblings, self._random.in_use():
             yield
 
     @abstractmethod
-    def _start(self) -> Callable[[int], bool]:
-        """Initialize the protocols, and return what runs the next events; see `run_in_chunks`."""
+    def _start(self) -> Callable[[float, int], bool]:
+        """Initialize the protocols, and return what runs the next events.
+
+        It takes a simulated time (s) and a number of events, both at most, and returns whether it reached
+        that time.
+        """
+
+    @abstractmethod
+    def _parts_of(self, node_id: int) -> tuple[Any, Any]:
+        """Return the encapsulator of a node, and what has its position."""
 
     @abstractmethod
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
@@ -207,6 +345,14 @@ class ScenarioRun(ABC):
     @abstractmethod
     def _finish(self) -> None:
         """Finish the protocols and finalize the handlers."""
+
+    @abstractmethod
+    def _close_after_failure(self, failure: BaseException) -> None:
+        """Finalize what remains after `failure`, without an exception that hides it."""
+
+    @abstractmethod
+    def _release(self) -> None:
+        """Release what the run held, after its end."""
 
     @abstractmethod
     def _measured(self) -> Mapping[str, Any]:

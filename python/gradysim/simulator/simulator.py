@@ -146,21 +146,35 @@ class Simulator:
         """Run one event, and initialize before the first one. Return False when it was the last one."""
         return self.run_events(1)
 
-    def run_events(self, count: int) -> bool:
-        """Run at most `count` events, and initialize before the first one.
+    def run_until(self, time_s: float, max_events: int) -> bool:
+        """Run the events up to a simulated time, those at that time included, at most `max_events`.
+
+        Return whether that time is reached, or the simulation has ended.
+        """
+        if not self.run_events(max_events, time_s):
+            return True
+        next_time = self._event_loop.next_time()
+        if next_time is None or next_time <= time_s:
+            return False
+        self._event_loop.advance_to(time_s)
+        return True
+
+    def run_events(self, count: int, until_s: float = math.inf) -> bool:
+        """Run at most `count` events up to the simulated time `until_s`. Initialize before the first one.
 
         Return whether the simulation continues. Otherwise it has been finalized.
         """
         if self._finalized:
             return False
+        until_s = min(until_s, self._until_s)
         try:
             if not self._initialized:
                 self._initialize_simulation()
             self._formatter.thread = threading.get_ident()
             if count == 1 and self._pacing is None and self._profile is None:
-                self._execute_next()
+                self._execute_next(until_s)
             else:
-                self._execute(count)
+                self._execute(count, until_s)
             done = self.is_simulation_done()
         except KeyboardInterrupt:
             raise  # not a failure: the caller may continue or finalize
@@ -283,7 +297,7 @@ class Simulator:
     def _real_time_factor(self) -> float:
         return 0.0 if is_full_speed() else real_time_factor(self._configuration.real_time)
 
-    def _execute(self, count: int) -> None:
+    def _execute(self, count: int, until_s: float) -> None:
         limit = self._configuration.max_iterations
         first = self._iteration
         last = first + count if limit is None else min(first + count, limit)
@@ -296,7 +310,7 @@ class Simulator:
             iterations = self._pacing.before_each(iterations)
         # zip takes the number before the event. So pacing waits before an event is taken, and when the
         # numbers end, no event is taken.
-        for iteration, event in zip(iterations, loop.take_events(self._until_s), strict=False):
+        for iteration, event in zip(iterations, loop.take_events(until_s), strict=False):
             formatter.iteration = iteration
             formatter.context = event[1]
             if profile is None:
@@ -308,14 +322,14 @@ class Simulator:
             self._iteration = iteration + 1
         formatter.iteration = None
 
-    def _execute_next(self) -> None:
+    def _execute_next(self, until_s: float) -> None:
         """Run one event, faster than `_execute`: learning environments step through all events."""
         iteration = self._iteration
         limit = self._configuration.max_iterations
         if limit is not None and iteration >= limit:
             return
         loop = self._event_loop
-        event = loop.take_event(self._until_s)
+        event = loop.take_event(until_s)
         if event is None:
             return
         formatter = self._formatter

@@ -3,7 +3,7 @@ import random
 
 import pytest
 
-from gradysim.encapsulator.run_context import gc_paused, global_random_seeded
+from gradysim.encapsulator.run_context import GlobalRandom, gc_paused
 
 
 def test_the_collector_is_off_inside_and_on_afterwards():
@@ -30,6 +30,13 @@ def test_a_collector_that_was_off_stays_off():
 
 def test_pythons_random_is_seeded_inside_and_restored_afterwards():
     before = random.getstate()
-    with global_random_seeded(5):
+    with GlobalRandom(5).in_use():
         assert random.random() == random.Random(5).random()
     assert random.getstate() == before
+
+
+def test_pythons_random_goes_on_where_the_run_left_it():
+    of_run, expected = GlobalRandom(5), random.Random(5)
+    for _ in range(2):
+        with of_run.in_use():
+            assert random.random() == expected.random()

@@ -86,8 +86,8 @@ def test_a_paced_run_can_be_stopped(make_scenario, wall_clock):
 
 def test_many_events_of_one_turn_are_run_in_portions(wall_clock):
     portions = iter([False, False, True])
-    paced = RealTimeRun(lambda limit_s, max_events: next(portions), 0.0, 1.0, lambda: 0.0)
-    assert [paced.advance(10) for _ in range(3)] == [False, False, True]
+    paced = RealTimeRun(lambda until_s, max_events: next(portions), 1.0, lambda: 0.0)
+    assert [paced.advance(0.0, 10) for _ in range(3)] == [False, False, True]
     assert wall_clock.sleeps == []
 
 
