@@ -10,6 +10,8 @@ from gradysim.scenario.scenario import Scenario
 def start(scenario: Scenario, mode: Mode = "integrated", **options: Any) -> ScenarioRun:
     """Build a run of a scenario, to be advanced step by step.
 
+    For example::
+
         with gradysim.start(scenario) as run:
             run.run_until(10.0)
             print(run.node("uavs[2]").position)
