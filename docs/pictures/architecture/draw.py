@@ -29,6 +29,7 @@ STEP, HEIGHT, WIDTH = 0.72, 0.58, 5.4
 CONTENTS = {
     "__main__": "python -m gradysim",
     "cli": "commands, options, processes of runs",
+    "stepping": "runs in steps",
     "prototype": "runs in Python",
     "integrated": "runs in C++",
     "plots": "figures",
