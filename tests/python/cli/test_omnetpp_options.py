@@ -196,14 +196,7 @@ def test_a_resumed_run_is_repeated_for_a_file_that_cannot_be_read(folder, resume
     assert resumed(*options) == []
 
 
-@pytest.mark.parametrize(
-    "line",
-    [
-        "network = field.Field",
-        "experiment-label = mine",
-        pytest.param("experiment-label = \udc80", id="no text"),
-    ],
-)
+@pytest.mark.parametrize("line", ["network = field.Field", "experiment-label = mine"])
 @pytest.mark.parametrize("options", [["--scalars"], ["--vectors", "uavs"]])
 def test_a_resumed_run_is_repeated_for_files_with_other_labels(resumed, line, options):
     assert resumed(*options) == []

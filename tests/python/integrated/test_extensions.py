@@ -56,7 +56,7 @@ def test_a_camera_of_ones_own_can_do_more_with_what_is_seen(make_scenario):
 
 def test_a_camera_that_looks_at_nodes_of_python_says_where_it_works(make_scenario):
     protocol = CAMERA_OF_ONES_OWN.replace("{SEEN}", "len(self._mobility.nodes)")
-    with pytest.raises(RuntimeError, match=r"Counting looks at .* prototype mode only"):
+    with pytest.raises(RuntimeError, match=r"Counting uses the nodes of .* prototype mode"):
         run(make_scenario(protocol))
 
 

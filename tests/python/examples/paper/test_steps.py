@@ -10,7 +10,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 import steps
 from steps import STEPS, row
 
-GUIDE = Path(__file__).parents[4] / "docs" / "guides" / "paper.md"
+GUIDE = Path(__file__).parents[4] / "docs/how-to/repeat-the-paper.md"
 
 
 def shown() -> list[list[str]]:
