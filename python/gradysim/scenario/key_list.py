@@ -78,10 +78,7 @@ def matching(sections: Iterable[KeySection], pattern: str) -> list[KeySection]:
 
 
 def key_meant(sections: Iterable[KeySection], pattern: str) -> str:
-    """Return the end of a message about a pattern without a match, ".
-
-    Did you mean ...?"; "" without a typo.
-    """
+    """Return the end of a message about a pattern without a match; "" without a typo."""
     keys = [row.key.partition(" ")[0].split(".") for section in sections for row in section.rows]
     meant = nearest(pattern, (".".join(key[-length:]) for length in (1, 2) for key in keys), strict=True)
     return f"; did you mean `{meant}`?" if meant else ""
