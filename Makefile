@@ -131,7 +131,7 @@ golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages
 
 wheels: $(STAMPS)/build $(STAMPS)/wheels $(STAMPS)/test system-qemu  ## Build wheels for x86-64 and aarch64 and the source distribution into dist, and test them.
 	$(BIN)/python packaging/build_wheels.py
-	$(BIN)/python -m pytest -o pythonpath='packaging tests/wheels' -v -rs --durations=0 tests/wheels
+	$(BIN)/python -m pytest -o pythonpath='packaging tests/wheels' -vv -rs tests/wheels
 
 release: | $(VENV)/bin/python  ## Test, build the wheels and tag a release: VERSION=1.0.0.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
