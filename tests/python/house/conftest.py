@@ -80,6 +80,7 @@ def shell(root: Path, tmp_path: Path) -> Callable[[str, Path], str]:
     program.chmod(0o755)
     variables = {**os.environ, "PATH": f"{program.parent}{os.pathsep}{os.environ['PATH']}"}
     variables["PYTHONPATH"] = str(root / "python")
+    variables.pop("COLUMNS", None)  # pytest-xdist sets it; pages show output of any width
 
     def run(commands: str, folder: Path) -> str:
         return subprocess.run(
