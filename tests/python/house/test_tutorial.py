@@ -85,6 +85,7 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Played:
     program.chmod(0o755)
     path = os.pathsep.join([str(program.parent), str(Path(sys.executable).parent), os.environ["PATH"]])
     variables = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "python")}
+    variables.pop("COLUMNS", None)  # pytest-xdist sets it; the pages show output of any width
     steps: list[Step] = []
     files: dict[str, dict[str, str]] = {}
 
