@@ -1,6 +1,10 @@
 """The documentation site: `make docs` builds it with Sphinx, from Markdown and docstrings."""
 
 from importlib import metadata
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 project = "gradysim"
 author = "The gradysim authors"
@@ -40,3 +44,14 @@ html_copy_source = False
 
 # Tables of error rates are shown as csv, which the highlighter does not know.
 suppress_warnings = ["misc.highlighting_failure"]
+
+
+def without_declarations(*event: Any) -> tuple[str, None] | None:
+    """Leave out the arguments of a class whose fields carry declarations: its page describes each field."""
+    signature = event[5]
+    return ("(…)", None) if signature and "Annotated[" in signature else None
+
+
+def setup(app: "Sphinx") -> None:
+    """Connect what the reference of the API needs."""
+    app.connect("autodoc-process-signature", without_declarations)

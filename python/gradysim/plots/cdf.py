@@ -13,6 +13,7 @@ from gradysim.plots.numbers import (
     check_quantity,
     label_of,
     mean_columns,
+    number_of_runs,
     series_of,
 )
 from gradysim.results.files import read_run_file
@@ -37,7 +38,7 @@ def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbe
     belong to runs, and have no interval. Raises ConfigError and OSError.
     """
     check_quantity(runs, y)
-    curves, counts = [], []
+    curves, counts, averaged = [], [], False
     for values, alike in series_of(runs, by):
         found = [each for run in alike if y in run.numbers and (each := _distribution(run, y))]
         if not found:
@@ -45,11 +46,12 @@ def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbe
         counts.append(len(found))
         if all(len(each[0]) == 1 for each in found):  # one number per run
             found = [_of_values([each[0][0] for each in found])]
+        averaged |= len(found) > 1
         grid = sorted({value for each in found for value in each[0]})
         columns = mean_columns([[_share(each, value) for each in found] for value in grid])
         columns["runs"] = [counts[-1]] * len(grid)
         curves.append(Curve(values, {y: grid, **columns}))
-    caption = caption_of("distribution", counts)
+    caption = caption_of("distribution", counts) if averaged else f"distribution, {number_of_runs(counts)}"
     return Numbers(curves, label_of(y), "share of values", caption)
 
 
