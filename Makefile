@@ -85,7 +85,7 @@ lint-files: $(STAMPS)/lint  ## Workflows, the forms of issues, the citation, the
 	zizmor --offline --quiet --no-progress .github/workflows
 	pre-commit validate-config
 
-format: $(STAMPS)/lint  ## Lay out all sources; mends what ruff can mend.
+format: $(STAMPS)/lint  ## Lay out all sources; fixes what ruff can fix.
 	ruff check --fix-only --quiet $(python_checked)
 	ruff format $(python_checked)
 	clang-format -i $(cpp_checked)
