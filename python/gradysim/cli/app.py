@@ -6,6 +6,7 @@
     gradysim view FILE.ini|FILE.html...
     gradysim runs FILE.ini [-c CONFIG]
     gradysim means DIR [QUANTITY...] [--csv]
+    gradysim compare DIR DIR [--metric QUANTITY] ...
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
@@ -26,6 +27,7 @@ from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
 from gradysim.cli.calibrate import calibrate_power
 from gradysim.cli.check import check_file
+from gradysim.cli.compare import compare
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
@@ -72,6 +74,7 @@ app.command(view)
 app.command(make_project, name="new")
 app.command(list_runs, name="runs")
 app.command(print_means, name="means")
+app.command(compare)
 app.command(draw_figure, name="plot")
 app.command(list_keys, name="keys")
 app.command(calibrate_power, name="calibrate")

@@ -1,7 +1,6 @@
 """`gradysim means`: means over the runs in a directory, as a table or as CSV."""
 
 import csv
-import shlex
 import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, TextIO
@@ -10,7 +9,7 @@ from cyclopts import Parameter
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import ResultsArgument
-from gradysim.cli.study import read_study, warn_of_mixed_runs
+from gradysim.cli.study import check_quantities, read_study, warn_of_mixed_runs
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -39,19 +38,12 @@ def print_means(
     """Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence intervals."""
     from gradysim.cli.console import console
     from gradysim.results.means import means
-    from gradysim.results.quantity import name_filter
-    from gradysim.scenario.errors import ConfigError, nearest
+    from gradysim.scenario.errors import ConfigError
 
     try:
         results = read_study(directory)
         found = means(results, quantities or None)
-        for quantity in quantities:
-            if not any(name_filter(quantity)(mean.quantity) for mean in found):
-                raise ConfigError(
-                    f"{directory}: no quantity is called `{quantity}`",
-                    expected=f"one that `gradysim means {shlex.quote(str(directory))}` prints",
-                    suggestion=nearest(quantity, results.quantities),
-                )
+        check_quantities(quantities, (mean.quantity for mean in found), directory, results.quantities)
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
     warn_of_mixed_runs(directory, results)

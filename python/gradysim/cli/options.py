@@ -96,6 +96,32 @@ class PlotOptions:
 
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
+class CompareOptions:
+    """Options of `gradysim compare`. The docstring of a field is its help."""
+
+    by: str | None = None
+    """Variable whose two values in one directory are compared: mode, config or one of `${name=...}` in the
+    .ini file."""
+
+    baseline: str | None = None
+    """Value of --by that the other one is compared with; by default the first one."""
+
+    where: Names = ()
+    """VARIABLE=VALUE...: only these runs, as in `gradysim plot`."""
+
+    metric: Names = ()
+    """QUANTITY...: quantities to compare, by name, as in `gradysim means`. Default: those that it prints."""
+
+    as_csv: Annotated[Flag, Parameter(name="--csv")] = False
+    """Print CSV, with all digits, for other programs."""
+
+    output: Annotated[Path | None, Parameter(alias="-o")] = None
+    """Draw the differences, in percent, to this file: .pdf, .png or .svg. Their numbers and their origin go
+    to files of the same name that end in .csv and .json."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
 class RunOptions:
     """Options of `gradysim run`. The docstring of a field is its help."""
 

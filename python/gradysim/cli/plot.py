@@ -1,13 +1,12 @@
 """`gradysim plot`: figures of a study."""
 
 import sys
-from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import PlotOptions, ResultsArgument
-from gradysim.cli.study import read_study, warn_of_mixed_runs
+from gradysim.cli.study import conditions, read_study, warn_of_mixed_runs
 
 if TYPE_CHECKING:
     from gradysim.results.run_table import Runs
@@ -20,7 +19,7 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
 
     try:
         study = read_study(directory)
-        runs = _with_variable(directory, study.where(**_wanted(options.where)), options.x)
+        runs = _with_variable(directory, study.where(**conditions(options.where)), options.x)
         files = save_figure(
             options.output,
             runs,
@@ -56,16 +55,3 @@ def _with_variable(directory: Path, runs: "Runs", variable: str | None) -> "Runs
         file=sys.stderr,
     )
     return kept
-
-
-def _wanted(conditions: Iterable[str]) -> dict[str, list[str]]:
-    """Return {variable: values}. Raises ConfigError."""
-    from gradysim.scenario.errors import ConfigError
-
-    wanted: dict[str, list[str]] = {}
-    for condition in conditions:
-        variable, equals, value = condition.partition("=")
-        if not equals:
-            raise ConfigError(f"--where {condition}: expected VARIABLE=VALUE")
-        wanted.setdefault(variable, []).append(value)
-    return wanted

@@ -1,7 +1,8 @@
-"""The runs in the directory of a study, for `gradysim means` and `gradysim plot`."""
+"""The runs in the directory of a study, for `gradysim means`, `gradysim plot` and `gradysim compare`."""
 
 import shlex
 import sys
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,39 @@ def read_study(directory: Path) -> "Runs":
             f" `gradysim run FILE --result-dir {shlex.quote(str(directory))}`"
         )
     return found
+
+
+def conditions(where: Iterable[str]) -> dict[str, list[str]]:
+    """Return {variable: values} of `--where`. Raises ConfigError."""
+    from gradysim.scenario.errors import ConfigError
+
+    wanted: dict[str, list[str]] = {}
+    for condition in where:
+        variable, equals, value = condition.partition("=")
+        if not equals:
+            raise ConfigError(f"--where {condition}: expected VARIABLE=VALUE")
+        wanted.setdefault(variable, []).append(value)
+    return wanted
+
+
+def check_quantities(
+    wanted: Iterable[str], found: Iterable[str], directory: Path, known: Iterable[str]
+) -> None:
+    """Raise ConfigError for a name that selects none of the `found` quantities.
+
+    `known` are all quantities of the runs in the directory.
+    """
+    from gradysim.results.quantity import name_filter
+    from gradysim.scenario.errors import ConfigError, nearest
+
+    names = list(found)
+    for quantity in wanted:
+        if not any(map(name_filter(quantity), names)):
+            raise ConfigError(
+                f"{directory}: no quantity is called `{quantity}`",
+                expected=f"one that `gradysim means {shlex.quote(str(directory))}` prints",
+                suggestion=nearest(quantity, known),
+            )
 
 
 def warn_of_mixed_runs(directory: Path, results: "Runs") -> None:

@@ -17,19 +17,32 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gradysim.plots.cdf import cdf_numbers, draw_cdf
+from gradysim.plots.compare import changes_height_in, changes_numbers, draw_changes
 from gradysim.plots.figure import STYLE, check_file, new_figure, write_files
 from gradysim.plots.line import diff_numbers, draw_diff, draw_line, line_numbers
 from gradysim.plots.map import draw_map, map_numbers
 from gradysim.plots.numbers import Numbers
 from gradysim.plots.outcomes import draw_outcomes, outcome_names, outcomes_numbers
 from gradysim.plots.time import draw_time, time_numbers, vector_names
+from gradysim.results.compare import Change, Pairs
 from gradysim.results.run_table import Runs
 from gradysim.scenario.errors import ConfigError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["STYLE", "cdf", "diff", "line", "map", "new_figure", "outcomes", "save_figure", "time"]
+__all__ = [
+    "STYLE",
+    "cdf",
+    "diff",
+    "line",
+    "map",
+    "new_figure",
+    "outcomes",
+    "save_changes",
+    "save_figure",
+    "time",
+]
 
 
 def line(axes: "Axes", runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None) -> "Axes":
@@ -158,3 +171,32 @@ def save_figure(
             getattr(axes, f"set_{axis}scale")("log")
         origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
         return write_files(figure, path, numbers, list(runs), origin)
+
+
+def save_changes(
+    path: str | Path, changes: Iterable[Change], pairs: Pairs, first: str, second: str
+) -> tuple[Path, Path, Path]:
+    """Draw the changes between two sets of runs, and write the three files of `save_figure`.
+
+    Args:
+        path: The file of the picture.
+        changes: Some of `pairs.changes()`. They are drawn in percent of the mean of the first set.
+        pairs: The compared runs.
+        first: Name of the first set.
+        second: Name of the second set.
+
+    Raises:
+        ConfigError: The format is unknown, or no change can be drawn.
+        ImportError: matplotlib is missing.
+        OSError: A file cannot be read or written.
+    """
+    path = Path(path)
+    check_file(path, pairs.all_runs)
+    numbers = changes_numbers(changes, first, second)
+    figure = new_figure()
+    figure.set_figheight(changes_height_in(numbers))
+    from matplotlib import rc_context
+
+    with rc_context(STYLE):
+        draw_changes(figure.subplots(), numbers)
+        return write_files(figure, path, numbers, pairs.all_runs, {"compared": [first, second]})

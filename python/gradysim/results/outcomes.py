@@ -20,6 +20,9 @@ Outcomes = Mapping[str, Counts]
 _UNDECIDED = {"queued", "in_air"}
 """Outcomes of frames and messages that were in progress at the end of the run."""
 
+_OVERHEARD = " overheard"
+"""End of the kinds of frames at radios to which they are not addressed."""
+
 
 @dataclass(frozen=True)
 class Ledger:
@@ -95,9 +98,25 @@ def outcome_ratios(outcomes: Mapping[str, Any]) -> Iterator[Average]:
         if outcome not in ("sent", "acknowledged"):  # all others are sent, and broadcasts have no ACK
             yield Average(f"broadcast messages {outcome}", ratio, outcome == "delivered")
     for kind, counts in frames.items():
-        if not kind.endswith(" overheard"):
+        if not kind.endswith(_OVERHEARD):
             yield from _delivered(f"{kind} frames", counts)
     yield from _delivered("broadcast copies", copies.get("broadcast") or {})
+
+
+def loss_shares(outcomes: Outcomes) -> dict[str, float]:
+    """Return the share of receptions of each cause of loss, `{"broadcast frames interference": 0.1}`.
+
+    Causes have 0 if a kind of frame lost no reception. Overheard frames are left out.
+    """
+    return {
+        f"{kind} {ledger} {outcome}": share
+        for ledger, counts in outcomes.items()
+        if LEDGERS[ledger].label == "receptions"
+        for kind, of_kind in counts.items()
+        if not kind.endswith(_OVERHEARD)
+        for outcome, share in _ratios(of_kind)
+        if outcome != "delivered"
+    }
 
 
 def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[Average]:

@@ -48,8 +48,9 @@ def compare_pairs(first: Sequence[float], second: Sequence[float]) -> Comparison
     if not first or len(first) != len(second):
         raise ValueError(f"expected pairs of numbers, got {len(first)} and {len(second)} numbers")
     differences = [after - before for before, after in zip(first, second, strict=True)]
-    return Comparison(len(first), *map(_estimate, (first, second, differences)))
+    return Comparison(len(first), *map(estimate, (first, second, differences)))
 
 
-def _estimate(values: Sequence[float]) -> Estimate:
+def estimate(values: Sequence[float]) -> Estimate:
+    """Return the mean of at least one number, with its interval."""
     return Estimate(*mean_with_half_width(values))

@@ -1,0 +1,85 @@
+"""Paired differences of several quantities, relative to the first set of runs, with their intervals."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from gradysim.plots.figure import HEIGHT_IN, set_texts, styles_of
+from gradysim.plots.numbers import Curve, Numbers, caption_of
+from gradysim.results.compare import Change, varying_values
+from gradysim.scenario.errors import ConfigError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_HEIGHT_OF_MARKER_IN = 0.14
+_HEIGHT_OF_GAP_IN = 0.12
+"""Between two quantities."""
+_HEIGHT_OF_TEXTS_IN = 0.8
+"""Axis, label and caption."""
+
+
+def changes_numbers(changes: Iterable[Change], first: str, second: str) -> Numbers:
+    """Return the changes in percent of the mean of `first`, for each combination of values.
+
+    Quantities whose mean is 0 in the first set have no such change and are left out. Raises ConfigError if
+    none is left.
+    """
+    drawn = [change for change in changes if change.difference and change.first and change.first.mean]
+    if not drawn:
+        raise ConfigError(f"there is no change to draw: {first} has no mean other than 0")
+    varying = varying_values(drawn)
+    of_values: dict[tuple[object, ...], list[Change]] = {}
+    for change in drawn:
+        of_values.setdefault(tuple(change.values[name] for name in varying), []).append(change)
+    curves = [
+        Curve(dict(zip(varying, values, strict=True)), _columns(alike)) for values, alike in of_values.items()
+    ]
+    caption = caption_of("mean of paired differences", [change.pairs for change in drawn], "pair")
+    categories = list(dict.fromkeys(change.quantity for change in drawn))
+    return Numbers(curves, f"{second} - {first}, in % of {first}", "", caption, categories)
+
+
+def _columns(changes: Sequence[Change]) -> Mapping[str, Sequence[Any]]:
+    columns: dict[str, list[Any]] = {}
+    for change in changes:
+        assert change.first is not None
+        assert change.second is not None
+        assert change.difference is not None
+        percent = 100 / abs(change.first.mean)
+        half_width = change.difference.half_width
+        row = {
+            "quantity": change.quantity,
+            "pairs": change.pairs,
+            "first": change.first.mean,
+            "second": change.second.mean,
+            "difference": change.difference.mean,
+            "half_width": half_width,
+            "percent": change.difference.mean * percent,
+            "percent_half_width": None if half_width is None else half_width * percent,
+        }
+        for name, value in row.items():
+            columns.setdefault(name, []).append(value)
+    return columns
+
+
+def changes_height_in(numbers: Numbers) -> float:
+    """Return the height of a figure that has room for all quantities, in inches."""
+    of_quantity = len(numbers.curves) * _HEIGHT_OF_MARKER_IN + _HEIGHT_OF_GAP_IN
+    return max(HEIGHT_IN, len(numbers.categories) * of_quantity + _HEIGHT_OF_TEXTS_IN)
+
+
+def draw_changes(axes: "Axes", numbers: Numbers) -> "Axes":
+    """Draw a row for each quantity, with a marker for each curve. The first ones are at the top."""
+    curves = numbers.curves
+    axes.axvline(0, color="gray", linewidth=0.6)
+    for index, (curve, style) in enumerate(zip(curves, styles_of(curves), strict=True)):
+        shift = (index + 0.5) / len(curves) - 0.5
+        places = [numbers.categories.index(quantity) + 0.6 * shift for quantity in curve.x]
+        half_widths = [half or 0.0 for half in curve.columns["percent_half_width"]]
+        style["linestyle"] = "none"
+        axes.errorbar(curve.columns["percent"], places, xerr=half_widths, label=curve.label, **style)
+    set_texts(axes, replace(numbers, categories=()))
+    axes.set_yticks(range(len(numbers.categories)), list(numbers.categories))
+    axes.set_ylim(len(numbers.categories) - 0.5, -0.5)
+    return axes

@@ -1,0 +1,96 @@
+"""`gradysim compare`: from the files of `run --result-dir`."""
+
+import csv
+import json
+
+import pytest
+
+TWO_STUDIES = (
+    (("--mode", "prototype", "--result-dir", "before", "--quiet"), "3.5s"),
+    (("--mode", "prototype", "--result-dir", "after", "--quiet"), "5.5s"),
+)
+
+
+@pytest.fixture
+def studies(gradysim):
+    """Write three runs that end at 3.5 s to `before`, and two of them that end at 5.5 s to `after`."""
+    for (options, limit), wanted in zip(TWO_STUDIES, ("0..2", "1,2"), strict=True):
+        gradysim("run", "test.ini", "-r", wanted, "--set", f"sim-time-limit={limit}", *options)
+
+
+def rows(text):
+    return list(csv.DictReader(text.splitlines()))
+
+
+def test_two_directories(gradysim, studies):
+    done = gradysim("compare", "before", "after")
+    assert done.returncode == 0
+    assert done.stderr == "before: left out 1 run without a partner of the same seed in after\n"
+    title, headings, _, *lines = [line.split() for line in done.stdout.splitlines()]
+    assert title == ["General,", "prototype", "mode"]
+    assert headings[:4] == ["quantity", "before", "after", "difference"]
+    assert ["uavs[*]", "said", "3", "5", "+2", "0", "*", "2"] in lines
+    assert done.stdout.endswith("* the interval of the difference excludes 0\n")
+
+
+def test_losses_by_cause(gradysim, studies):
+    lossy = ("--set", "*.communicationMedium.failureRate=0.5", "--result-dir", "lossy", "--quiet")
+    gradysim("run", "test.ini", "--mode", "prototype", *lossy)
+    printed = gradysim("compare", "before", "lossy", "--metric", "uavs[*] said").stdout
+    assert "\nGeneral, prototype mode, losses, shares of receptions " in printed
+    assert "\nbroadcast copies lost " in printed
+
+
+def test_numbers_for_other_programs(gradysim, studies):
+    done = gradysim("compare", "before", "after", "--metric", "uavs[*] said", "--csv")
+    said = rows(done.stdout)[0]
+    assert said["quantity"] == "uavs[*] said"
+    assert (said["pairs"], said["first"], said["second"]) == ("2", "3.0", "5.0")
+    assert (said["difference"], said["difference_half_width"]) == ("2.0", "0.0")
+    assert (said["config"], said["mode"]) == ("General", "prototype")
+
+
+def test_two_modes_of_one_directory(gradysim):
+    for mode in ("integrated", "prototype"):
+        gradysim("run", "test.ini", "--mode", mode, "--result-dir", "out", "--quiet")
+    done = gradysim("compare", "out", "--by", "mode", "--baseline", "prototype")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines()[1].split()[:3] == ["quantity", "prototype", "integrated"]
+
+
+def test_a_figure(gradysim, studies, folder):
+    pytest.importorskip("matplotlib")
+    done = gradysim("compare", "before", "after", "-o", "change.svg", "--metric", "uavs[*] said")
+    assert done.stdout.endswith("drawn in change.svg; numbers in change.csv, origin in change.json\n")
+    (row,) = rows((folder / "change.csv").read_text())
+    assert (row["quantity"], float(row["percent"])) == ("uavs[*] said", pytest.approx(200 / 3))
+    origin = json.loads((folder / "change.json").read_text())
+    assert origin["compared"] == ["before", "after"]
+    assert len(origin["runs"]) == 4
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("before",), "there is nothing to compare; expected a second directory, or --by VARIABLE"),
+        (("before", "nowhere"), "nowhere: there is no such directory"),
+        (("before", "after", "--by", "mode"), "--by mode: there are two directories to compare"),
+        (("before", "after", "--baseline", "x"), "--baseline x: expected --by VARIABLE, too"),
+        (("before", "after", "--where", "mode"), "--where mode: expected VARIABLE=VALUE"),
+        (("before", "--by", "mode"), "--by mode: the runs have 1 value of it (prototype); expected two"),
+        (("before", "--by", "mod"), "did you mean `mode`?"),
+        (("before", "--by", "seed", "--where", "seed=0", "seed=1"), "no two runs to compare"),
+        (("before", "after", "--metric", "uavs said"), "did you mean `uavs[*] said`?"),
+        (("before", "after", "-o", "change.txt"), "change.txt: `.txt` is not a format"),
+    ],
+)
+def test_mistakes(gradysim, studies, arguments, told):
+    done = gradysim("compare", *arguments)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert told in done.stderr
+
+
+def test_a_baseline_that_no_run_has(gradysim, studies):
+    arguments = ("--by", "seed", "--where", "seed=0", "seed=1", "--baseline", "2")
+    done = gradysim("compare", "before", *arguments)
+    assert done.stderr == "--baseline 2: no run has seed = 2; expected one of 0, 1\n"
