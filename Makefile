@@ -111,9 +111,10 @@ docs: build $(STAMPS)/docs  ## Build the documentation site, build/site, and che
 viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer/page.html, from viewer/.
 	cd viewer && npm run --silent check && npm run --silent build
 
-figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of docs/how-to/plot-a-study.md.
-	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/how-to/plot-a-study.md | sh -e
+figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of their how-to pages.
+	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/how-to/plot-a-study.md docs/how-to/compare-two-studies.md | sh -e
 	cp results/line.png results/diff.png results/outcomes.png results/cdf.png results/time.png results/map.png docs/pictures/plots
+	cp results/compare.png docs/pictures/plots
 
 pictures: figures $(node_packages) system-chromium  ## Draw the pictures of the README and the guides again.
 	$(BIN)/python docs/pictures/draw.py

@@ -104,7 +104,11 @@ def _sides(first: Path, second: Path | None, options: CompareOptions) -> tuple[S
             raise ConfigError(f"--by {options.by}: there are two directories to compare; expected one")
         if options.baseline is not None:
             raise ConfigError(f"--baseline {options.baseline}: expected --by VARIABLE, too")
-        before, after = (Side(str(each), each, read_study(each).where(**where)) for each in (first, second))
+        are_named = first.name and second.name and first.name != second.name
+        before, after = (
+            Side(each.name if are_named else str(each), each, read_study(each).where(**where))
+            for each in (first, second)
+        )
         return before, after
     if options.by is None:
         raise ConfigError("there is nothing to compare", expected="a second directory, or --by VARIABLE")

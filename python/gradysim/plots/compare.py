@@ -37,7 +37,7 @@ def changes_numbers(changes: Iterable[Change], first: str, second: str) -> Numbe
     ]
     caption = caption_of("mean of paired differences", [change.pairs for change in drawn], "pair")
     categories = list(dict.fromkeys(change.quantity for change in drawn))
-    return Numbers(curves, f"{second} - {first}, in % of {first}", "", caption, categories)
+    return Numbers(curves, f"{second} - {first},\nin % of {first}", "", caption, categories)
 
 
 def _columns(changes: Sequence[Change]) -> Mapping[str, Sequence[Any]]:

@@ -109,7 +109,7 @@ def pair_runs(first: Runs, second: Runs) -> Pairs:
     """Return the pairs of runs with the same seed and the same values of variables.
 
     A variable of which the sets have no value in common, such as the mode, is what they are compared for.
-    Raises ConfigError if a run has several partners, or if there are no pairs.
+    Raises ConfigError if a run has several partners, or if no two runs are a pair.
     """
     variables = [
         name

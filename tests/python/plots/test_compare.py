@@ -45,7 +45,7 @@ def test_what_is_drawn(axes: Axes) -> None:
     points = [container[0].get_xydata().tolist() for container in axes.containers]
     assert points == [[[10, -0.15], [50, 0.85]], [[-5, 0.15]]]
     assert axes.get_ylim() == (1.5, -0.5)
-    assert axes.get_xlabel() == "b - a, in % of a"
+    assert axes.get_xlabel() == "b - a,\nin % of a"
     assert axes.get_title(loc="right") == "mean of paired differences, 95 % interval, n = 5 pairs"
 
 

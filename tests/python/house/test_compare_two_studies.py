@@ -1,0 +1,39 @@
+"""The commands of docs/how-to/compare-two-studies.md print what the page shows, and draw its picture."""
+
+import contextlib
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+pytest.importorskip("matplotlib")
+
+GUIDE = "docs/how-to/compare-two-studies.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+
+
+def test_its_commands_print_what_it_shows(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], root: Path, tmp_path: Path
+) -> None:
+    for name in ("configs", "examples"):
+        (tmp_path / name).symlink_to(root / name)
+    studies, others, modes = code_blocks(GUIDE, "sh")
+    shown = code_blocks(GUIDE, "text")
+    for commands, expected in ((studies, shown[0]), (modes, shown[1])):
+        printed = shell(commands, tmp_path).splitlines()
+        assert [line.rstrip() for line in printed] == expected.splitlines()
+    assert (tmp_path / "results/compare.png").stat().st_size
+    assert "results/compare.png" in (root / "Makefile").read_text()
+    shell(others, tmp_path)
+    lines = (tmp_path / "results/compare-reports.csv").read_text().splitlines()
+    assert "base reports" in lines[1]
+
+
+def test_its_script_prints_what_it_shows(code_blocks: CodeBlocks) -> None:
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed):
+        exec("\n".join(code_blocks(GUIDE, "python")), {})
+    assert printed.getvalue() == code_blocks(GUIDE, "text")[2]
