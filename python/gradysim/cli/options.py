@@ -149,6 +149,10 @@ class RunOptions:
     replace: Flag = False
     """Replace results of other settings or seeds in --result-dir. Without this option they are an error."""
 
+    until: str | None = None
+    """Condition such as 'ci(QUANTITY) < 5%': run repetitions until half the width of the quantity's 95 %
+    confidence interval is below 5 % of its mean, for each combination of values. `repeat` is the most."""
+
     jobs: Annotated[Integer, Parameter(alias="-j")] = 1
     """Number of runs at the same time."""
 

@@ -34,6 +34,7 @@ from gradysim.cli.output import (
     write_files,
 )
 from gradysim.cli.runs import check, findings_of, tell, warnings_of_seeds
+from gradysim.cli.until import checked_until, rounds_of
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -89,6 +90,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     try:
         check_jobs(options.jobs)
         memory_bytes = checked_limit(options.memory)
+        until = checked_until(options)
         check_sqlite(options)
         if options.writes_files:
             make_result_dir(options.directory)
@@ -165,7 +167,13 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     with StopOnInterrupt() as interrupt:
         workers = ForkExecutor(options.jobs, interrupt) if executor is None else nullcontext(executor)
         with workers as chosen:
-            code = run_all(study, left, carry_out, chosen)
+            try:
+                for places in rounds_of(study, left, until, options):
+                    code = run_all(study, places, carry_out, chosen)
+                    if code != OK:
+                        break
+            except (ConfigError, OSError) as mistake:
+                code = say_mistake(mistake)
         if options.is_writer:
             remove_left_over_files(options.directory)
     if code == INTERRUPTED:

@@ -1,0 +1,155 @@
+"""`gradysim run --until`: repetitions until the confidence interval of a quantity is narrow enough."""
+
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gradysim.cli.options import RunOptions
+
+if TYPE_CHECKING:
+    from gradysim.results.means import RunSummary
+    from gradysim.scenario.load import Study
+
+BATCH = 5
+"""Number of repetitions after which it is decided whether they are enough."""
+
+_CONDITION = re.compile(r"\s*ci\((?P<quantity>.+)\)\s*<\s*(?P<percent>\d+(\.\d+)?)\s*%\s*", re.ASCII)
+
+
+@dataclass(frozen=True)
+class Until:
+    """Condition that half the width of the interval is below `percent` of the mean.
+
+    Attributes:
+        text: As the user wrote it.
+        quantity: As in `gradysim means`.
+    """
+
+    text: str
+    quantity: str
+    percent: float
+
+
+def checked_until(options: RunOptions) -> Until | None:
+    """Return the condition of `--until`, if there is one. Raises ConfigError."""
+    from gradysim.scenario.errors import ConfigError
+
+    if options.until is None:
+        return None
+    match = _CONDITION.fullmatch(options.until)
+    if match is None or not float(match["percent"]):
+        raise ConfigError(f"--until {options.until}: expected `ci(QUANTITY) < 5%`")
+    if options.result_dir is None:
+        raise ConfigError(
+            "--until: it goes by the JSON files of --result-dir, which is not given;"
+            " expected --result-dir DIR, too"
+        )
+    return Until(options.until.strip(), match["quantity"].strip(), float(match["percent"]))
+
+
+def rounds_of(
+    study: "Study", left: Sequence[int], until: Until | None, options: RunOptions
+) -> Iterator[Sequence[int]]:
+    """Yield the positions in `study` of the runs to do next, those in `left`. One round without a condition.
+
+    A round has the next `BATCH` repetitions of each combination of values that does not meet the condition
+    yet. So the runs that are done depend on their results only. The caller does each round before it asks for
+    the next one. After the last round, prints what was reached. Raises ConfigError for an unknown quantity
+    and for a single repetition, and OSError.
+    """
+    from gradysim.scenario.errors import ConfigError
+
+    if until is None:
+        yield left
+        return
+    wanted, numbers = set(left), _Numbers(study, until, options)
+    unmet = study.places_of_repetitions()
+    if max(map(len, unmet)) < 2:
+        raise ConfigError(
+            f"--until {until.text}: a single repetition has no interval",
+            expected="`repeat` of 2 or more, the largest number of repetitions",
+        )
+    done = 0
+    while wide := [places for places in unmet if done < len(places)]:
+        batch = [(number, places[number]) for places in wide for number in _next(done, places)]
+        yield [place for _, place in sorted(batch) if place in wanted]
+        done += BATCH
+        unmet = [places for places in unmet if numbers.percent_of(places[:done]) >= until.percent]
+    _tell(study, until, options, numbers, unmet)
+
+
+def _next(done: int, places: Sequence[int]) -> range:
+    return range(done, min(done + BATCH, len(places)))
+
+
+class _Numbers:
+    """The quantity of a condition in the results of runs. Each result is read once."""
+
+    def __init__(self, study: "Study", until: Until, options: RunOptions) -> None:
+        self._study = study
+        self._until = until
+        self._options = options
+        self._numbers: dict[int, float | None] = {}
+
+    @property
+    def run_count(self) -> int:
+        """Number of results that were read."""
+        return len(self._numbers)
+
+    def percent_of(self, places: Sequence[int]) -> float:
+        """Return half the width of the interval in percent of the mean; infinite for a single number."""
+        from math import inf
+
+        from gradysim.results.confidence_interval import mean_with_half_width
+
+        numbers = [number for place in places if (number := self._number(place)) is not None]
+        mean, half_width = mean_with_half_width(numbers) if numbers else (0.0, None)
+        if half_width is None:
+            return inf
+        if mean == 0:
+            return inf if half_width else 0.0
+        return 100 * half_width / abs(mean)
+
+    def _number(self, place: int) -> float | None:
+        if place not in self._numbers:
+            self._numbers[place] = self._read(place).numbers.get(self._until.quantity)
+        return self._numbers[place]
+
+    def _read(self, place: int) -> "RunSummary":
+        from gradysim.results.files import read_run_file, run_file
+        from gradysim.results.means import RunSummary
+        from gradysim.scenario.errors import ConfigError, nearest
+
+        study, options = self._study, self._options
+        file = run_file(options.directory, study.config, study.numbers[place], options.mode)
+        summary = RunSummary.of(read_run_file(file), file)
+        if not self._numbers and self._until.quantity not in summary.numbers:
+            raise ConfigError(
+                f"--until {self._until.text}: no quantity is called `{self._until.quantity}`",
+                expected=f"one of {', '.join(summary.numbers)}",
+                suggestion=nearest(self._until.quantity, summary.numbers),
+            )
+        return summary
+
+
+def _tell(
+    study: "Study", until: Until, options: RunOptions, numbers: _Numbers, unmet: Sequence[Sequence[int]]
+) -> None:
+    """Print to standard error whether the condition is met everywhere, and by how much it is not."""
+    from gradysim.scenario.sweep import text_of_iterations
+
+    if unmet:
+        wide = []
+        for places in unmet:
+            values = text_of_iterations(study[places[0]].iterations)
+            percent = f"{numbers.percent_of(places):.3g}%"
+            wide.append(f"{percent} with {values}" if values else percent)
+        print(
+            f"{study.config}: warning: the repetitions do not reach {until.text}: {', '.join(wide)};"
+            " expected a larger `repeat`",
+            file=sys.stderr,
+        )
+    elif not options.quiet:
+        print(f"{study.config}: {numbers.run_count} of {len(study)} runs reach {until.text}", file=sys.stderr)
