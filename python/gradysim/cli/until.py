@@ -137,7 +137,7 @@ class _Numbers:
 def _tell(
     study: "Study", until: Until, options: RunOptions, numbers: _Numbers, unmet: Sequence[Sequence[int]]
 ) -> None:
-    """Print to standard error whether the condition is met everywhere, and by how much it is not."""
+    """Print how many runs meet the condition, or to standard error by how much they do not."""
     from gradysim.scenario.sweep import text_of_iterations
 
     if unmet:
@@ -151,5 +151,5 @@ def _tell(
             " expected a larger `repeat`",
             file=sys.stderr,
         )
-    elif not options.quiet:
-        print(f"{study.config}: {numbers.run_count} of {len(study)} runs reach {until.text}", file=sys.stderr)
+    elif not (options.as_json or options.quiet):
+        print(f"{study.config}: {numbers.run_count} of {len(study)} runs reach {until.text}")
