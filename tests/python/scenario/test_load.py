@@ -103,6 +103,15 @@ def test_a_run_for_each_combination_of_values_and_repetition(folder: Any) -> Non
     assert speeds(load_scenarios(folder.ini, runs="2")) == [2.0]
 
 
+@pytest.mark.parametrize(
+    ("order", "places"), [("x,repetition", [[0, 1, 2], [3, 4, 5]]), ("repetition,x", [[0, 2, 4], [1, 3, 5]])]
+)
+def test_repetitions_of_each_combination(folder: Any, order: str, places: list[list[int]]) -> None:
+    folder.load(f'repeat = 3\niteration-nesting-order = "{order}"\n**.numUavs = ${{x=1, 2}}\n')
+    study = Study(folder.ini, "General", None, (), None, OF_SCRIPT)
+    assert study.places_of_repetitions() == places
+
+
 def test_options_may_iterate_too(folder: Any) -> None:
     folder.load("seed-set = ${repetition}\nrepeat = 2\n[X]\nsim-time-limit = ${10s, 20s}\n")
     assert [(scenario.sim_time_limit_s, scenario.seed) for scenario in load_scenarios(folder.ini, "X")] == [
