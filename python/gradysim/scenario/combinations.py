@@ -93,15 +93,18 @@ def count_combinations(variables: Sequence[IterationVariable]) -> int:
 
 
 def check_lock_step(variables: Sequence[IterationVariable]) -> None:
-    """Raise ConfigError for a lock-step in a circle, or of variables with different numbers of values."""
+    """Raise ConfigError for a lock-step in a circle, or of a variable with too few values.
+
+    As in OMNeT++, values that its partner does not reach are not used.
+    """
     by_name = {variable.name: variable for variable in variables}
     for variable in variables:
         leader = _leader(variable, by_name)
-        if len(leader.values) != len(variable.values):
+        if len(variable.values) < len(leader.values):
             raise ConfigError.at(
                 variable.source,
                 f"it has {len(variable.values)} values and is in lock-step with `{leader.name}`, which has"
-                f" {len(leader.values)}; expected as many",
+                f" {len(leader.values)}; expected at least as many",
             )
 
 

@@ -4,7 +4,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.scenario.combinations import Combinations, Constraint, count_combinations
+from gradysim.scenario.combinations import (
+    Combinations,
+    Constraint,
+    check_lock_step,
+    count_combinations,
+)
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.sweep import IterationVariable, name_iterations
@@ -34,6 +39,15 @@ def test_variables_in_lock_step_change_together() -> None:
     assert list(Combinations(variables)) == [
         {"0": "10s", "x": "1", "y": "a"},
         {"0": "20s", "x": "2", "y": "b"},
+    ]
+
+
+def test_values_that_the_partner_does_not_reach_are_not_used() -> None:
+    variables = variables_of("${x=1,2}", "${y=a, b, c ! x}", "${10s, 20s, 30s ! y}")
+    check_lock_step(variables)
+    assert list(Combinations(variables)) == [
+        {"x": "1", "y": "a", "0": "10s"},
+        {"x": "2", "y": "b", "0": "20s"},
     ]
 
 

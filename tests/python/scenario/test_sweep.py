@@ -115,7 +115,7 @@ def test_what_is_ignored_iterates_over_nothing() -> None:
         ["${runnumber=1,2}"],
         ["${x=1,2}", "${x=3,4}"],
         ["${speed=1,2}", "${sped}"],
-        ["${x=1,2}", "${3,4,5 ! x}"],
+        ["${x=1,2,3}", "${4,5 ! x}"],
         ["${x=1,2 ! runnumber}"],
         ["${x=1,2 ! x}"],
         ["${1,2 ! y}"],
