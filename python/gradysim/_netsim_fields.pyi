@@ -7,7 +7,8 @@ MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]
 class MobilityFields:
     typename: str
     speed_mps: float
-    """Speed until the protocol sets another one, as every mission of the plugin does."""
+    """Speed; with MasslessMobility and autopilots until the protocol sets another one, as every mission
+    of the plugin does."""
     telemetry_interval_s: float
     """Time between two calls of handle_telemetry, at least 1us; 0s: no calls. In prototype mode the
     call comes with the first update of all positions at or after its time. Positions are updated every
@@ -21,6 +22,35 @@ class MobilityFields:
     """The same about the node's own x axis, from the y axis to the z axis."""
     face_forward: bool
     """Whether heading and elevation follow the direction of flight."""
+    area_min_x_m: float
+    """Smallest x of the area."""
+    area_min_y_m: float
+    """The same for y."""
+    area_min_z_m: float
+    """The same for z."""
+    area_max_x_m: float
+    """Largest x of the area."""
+    area_max_y_m: float
+    """The same for y."""
+    area_max_z_m: float
+    """The same for z."""
+    movement_heading_rad: float
+    """Direction of the first leg, from the x axis to the y axis."""
+    movement_elevation_rad: float
+    """The same upward."""
+    center_x_m: float
+    """X of the center of the circle."""
+    center_y_m: float
+    """The same for y."""
+    center_z_m: float
+    """The same for z."""
+    radius_m: float
+    """Radius of the circle, which is flown as a polygon at most 1 cm inside of it."""
+    start_angle_rad: float
+    """Where on the circle the node starts: from the x axis to the y axis."""
+    start_pos: float
+    """Where on the border of the area the node starts, in sides: 0 is the corner of the smallest x and
+    y, 1 that of the largest x and the smallest y, and so on."""
 
 class InterfaceFields:
     @property

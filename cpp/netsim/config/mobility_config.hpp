@@ -8,11 +8,12 @@
 
 #include "netsim/config/field.hpp"
 #include "netsim/geometry/orientation.hpp"
+#include "netsim/geometry/position.hpp"
 
 namespace netsim {
 
-inline constexpr std::array<std::string_view, 2> mobility_type_names{"MasslessMobility",
-                                                                     "StationaryMobility"};
+inline constexpr std::array<std::string_view, 5> mobility_type_names{
+    "MasslessMobility", "StationaryMobility", "LinearMobility", "CircleMobility", "RectangleMobility"};
 
 struct MobilityConfig {
     std::string type_name = "MasslessMobility";  // `typename` in Python
@@ -21,6 +22,19 @@ struct MobilityConfig {
 
     EulerAngles initial_orientation{};
     bool face_forward = false;
+
+    // Of LinearMobility and RectangleMobility: by default the whole scene.
+    Position area_min{-largest_coordinate_m, -largest_coordinate_m, -largest_coordinate_m};
+    Position area_max{largest_coordinate_m, largest_coordinate_m, largest_coordinate_m};
+    // Of LinearMobility.
+    double movement_heading_rad = 0;
+    double movement_elevation_rad = 0;
+    // Of CircleMobility.
+    Position center{};
+    double radius_m = 0;  // 0: not set
+    double start_angle_rad = 0;
+    // Of RectangleMobility, in sides.
+    double start_pos = 0;
 
     static const Schema schema;
 

@@ -52,6 +52,10 @@ void Trajectory::go_to(SimTime now, Position target, double speed_mps) {
             .course = {}});
 }
 
+void Trajectory::move(SimTime now, Position target, SimTime arrival) {
+    add(Leg{.start = now, .arrival = arrival, .target = target, .origin = position_at(now), .course = {}});
+}
+
 void Trajectory::stop(SimTime now) {
     const Position here = position_at(now);
     add(Leg{.start = now, .arrival = now, .target = here, .origin = here, .course = {}});

@@ -44,6 +44,8 @@ public:
     // Moves straight to `target` at `speed_mps` from `now` on, and stops there. Speed 0: stands
     // still. Takes at least one picosecond: no node is at two places at one instant.
     void go_to(SimTime now, Position target, double speed_mps);
+    // Moves straight to `target` from `now` on, and is there at `arrival`, which is later.
+    void move(SimTime now, Position target, SimTime arrival);
     // Stands still from `now` on.
     void stop(SimTime now);
 

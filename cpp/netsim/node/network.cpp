@@ -249,6 +249,9 @@ void Network::initialize() {
                                      node.protocol());
     }
     for (Node& node : nodes_) {
+        node.begin_path();
+    }
+    for (Node& node : nodes_) {
         node.initialize();
     }
     for (TelemetryClock& clock : telemetry_clocks_) {

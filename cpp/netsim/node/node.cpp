@@ -77,6 +77,17 @@ void Node::initialize() {
     call_protocol("initialize", [](Protocol& protocol) { protocol.initialize(); });
 }
 
+void Node::begin_path() {
+    const SimTime end = mobility_->begin_leg(now());
+    if (end == SimTime::never()) {
+        return;
+    }
+    if (context_.recorder != nullptr) {
+        context_.recorder->course_changed(id_);
+    }
+    context_.simulator.schedule_at(end, [this] { begin_path(); });
+}
+
 void Node::finish() {
     call_protocol("finish", [](Protocol& protocol) { protocol.finish(); });
 }

@@ -50,6 +50,8 @@ public:
     // ProtocolError.
     void check_protocol() const;
     void initialize();
+    // Starts to move, if its mobility follows a given path.
+    void begin_path();
     void report_position();
     void finish();
 

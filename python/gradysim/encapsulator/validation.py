@@ -133,8 +133,8 @@ def wrong_mobility(command: object, node_id: int, can_move: bool) -> str:
     if wrong or can_move:
         return wrong
     return (
-        f"node {node_id} is stationary, it cannot carry out {command!r}; expected a mobility.typename that"
-        " can move"
+        f"node {node_id} does not follow commands, got {command!r}; expected a mobility.typename that does,"
+        ' such as "MasslessMobility"'
     )
 
 

@@ -6,6 +6,7 @@ from typing import Any, Final
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position
 from gradysim.replay.recorder import TableRecorder
 from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
 from gradysim.scenario.scenario import Scenario
@@ -35,7 +36,7 @@ class PrototypeRecorder(TableRecorder):
         communication.on_message = self._message_sent
 
     def watch_paths(self, mobility: MasslessMobilityHandler, scenario: Scenario) -> None:
-        """Record the paths of nodes, from their commands; for vehicles with autopilots at intervals."""
+        """Record the paths of nodes, from their commands; others at intervals."""
         for spec in scenario.nodes:
             self.path(spec.id, spec.initial_position, spec.initial_position, 0)
         flown = {spec.id for spec in scenario.nodes if spec.autopilot is not None}
@@ -48,8 +49,21 @@ class PrototypeRecorder(TableRecorder):
             if node.id not in flown and node.id in mobility.targets:
                 self.path(node.id, node.position, mobility.targets[node.id], mobility.speeds[node.id])
 
+        for node_id, path in mobility.paths.items():
+            mobility.paths[node_id] = self._sampled_path(node_id, path)
         # An attribute of the object hides the method of its class.
         setattr(mobility, "handle_command", record_and_handle)  # noqa: B010
+
+    def _sampled_path(self, node_id: int, path: Callable[[float], Position]) -> Callable[[float], Position]:
+        """Return the same path, which records the node at intervals."""
+
+        def position(time_s: float) -> Position:
+            place = path(time_s)
+            self.close_if_long()
+            self.sampled(node_id, place, _SAMPLING_S)
+            return place
+
+        return position
 
     def watch_node(self, node: Node[Any], *, is_flown: bool) -> None:
         """Record the callbacks of a node's protocol; call it before the protocol is made."""

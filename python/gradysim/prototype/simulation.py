@@ -14,6 +14,7 @@ from gradysim.scenario.keys import MASSLESS, STATIONARY
 from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_integrated
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
+from gradysim.scenario.paths import path_of
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger
 from gradysim.simulator.handler.interface import INodeHandler
@@ -140,27 +141,21 @@ def communication_medium(scenario: Scenario) -> CommunicationMedium:
 
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
     """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
-    stationary = _stands_still(spec)
+    typename = spec.mobility.get("typename")
+    stationary = typename is not None and typename.value == STATIONARY
+    path = path_of(spec.mobility, spec.initial_position)
+    if typename is not None and path is None and typename.value not in (MASSLESS, STATIONARY):
+        expected = f'expected "{MASSLESS}" or "{STATIONARY}"'
+        raise ConfigError.at(typename.source, f"prototype mode has no {typename.value}; {expected}")
     numbers = {"telemetry_interval": UPDATE_S}  # the default, for any interval of other nodes
-    mobility.configure_node(spec.id, stationary=stationary, **numbers)
+    mobility.configure_node(spec.id, stationary=stationary, path=path, **numbers)
     for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
         if (setting := spec.mobility.get(field)) is not None:
             numbers[argument] = float(setting.value)
             try:
-                mobility.configure_node(spec.id, stationary=stationary, **numbers)
+                mobility.configure_node(spec.id, stationary=stationary, path=path, **numbers)
             except ValueError as error:  # the earlier ones are valid
                 raise ConfigError.at(setting.source, str(error)) from error
-
-
-def _stands_still(spec: NodeSpec) -> bool:
-    typename = spec.mobility.get("typename")
-    if typename is None or typename.value == MASSLESS:
-        return False
-    if typename.value == STATIONARY:
-        return True
-    raise ConfigError.at(
-        typename.source, f'prototype mode has no {typename.value}; expected "{MASSLESS}" or "{STATIONARY}"'
-    )
 
 
 _PS_PER_S = 1e12

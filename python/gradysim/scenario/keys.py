@@ -74,6 +74,10 @@ MASSLESS = "MasslessMobility"
 STATIONARY = "StationaryMobility"
 STATIC_GRID = "StaticGridMobility"
 """A stationary node whose initial position is in a grid."""
+LINEAR = "LinearMobility"
+CIRCLE = "CircleMobility"
+RECTANGLE = "RectangleMobility"
+"""Nodes on given paths."""
 ARDUPILOT = "ArdupilotMobility"
 """A node flown by its own ArduCopter."""
 
@@ -138,13 +142,17 @@ MOBILITY_KEYS: tuple[Key, ...] = (
             MASSLESS,
             STATIONARY,
             STATIC_GRID,
+            LINEAR,
+            CIRCLE,
+            RECTANGLE,
             ARDUPILOT,
             otherwise="protocols move their nodes here, with plugins for waypoints, random trips and more"
             " (docs/how-to/fly-a-mission.md, docs/how-to/move-at-random.md)",
         ),
         "How the node moves. MasslessMobility: as its protocol says (missions: docs/how-to/fly-a-mission.md, "
         "random waypoints: docs/how-to/move-at-random.md). StationaryMobility: not at all. "
-        "StaticGridMobility: not at all, and it starts in a grid. ArdupilotMobility: as its "
+        "StaticGridMobility: not at all, and it starts in a grid. LinearMobility, CircleMobility and "
+        "RectangleMobility: on a given path (docs/how-to/move-on-a-given-path.md). ArdupilotMobility: as its "
         "protocol says, flown by a real autopilot (docs/how-to/fly-with-ardupilot.md)",
         f'"{MASSLESS}"',
     ),

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.position import LARGEST_COORDINATE_M
+from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.groups import Group
 from gradysim.scenario.interfaces import InterfaceBuilder
@@ -29,6 +29,7 @@ from gradysim.scenario.native_protocols import native_protocol
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
 from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.parameters import parameters_of
+from gradysim.scenario.paths import path_of
 from gradysim.scenario.placement import AXES, Grid, axis_row, first_of_grid, idle_fields, read_grid
 from gradysim.scenario.protocols import ProtocolLoader
 from gradysim.scenario.schema import Key
@@ -141,6 +142,7 @@ def build_nodes(
                 else grid.coordinate_m(index, axis)
                 for axis, row, step in zip(AXES, shared.row, shared.steps, strict=True)
             )
+            place = builder.start(shared.mobility, (x, y, z))
             nodes.append(
                 NodeSpec(
                     id=len(nodes),
@@ -149,7 +151,7 @@ def build_nodes(
                     index=index,
                     protocol=protocols[name].cls,
                     protocol_parameters=shared.protocol_parameters,
-                    initial_position=(x, y, z),
+                    initial_position=place,
                     mobility=shared.mobility,
                     wlan=shared.wlan,
                     protocol_sources=shared.protocol_sources,
@@ -240,6 +242,13 @@ class _NodeBuilder:
         expected = f"at most {LARGEST_COORDINATE_M}m from 0m"
         self._errors.add(ConfigError.at(step.entry.source, text, expected=expected))
         return 0.0
+
+    def start(self, mobility: Mapping[str, Setting], place: Position) -> Position:
+        """Return where a node starts: on its path if it has one, otherwise at `place`."""
+        with self._errors.collecting():
+            if path := path_of(mobility, place):
+                return path(0)
+        return place
 
     def _make(
         self,

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "netsim/mobility/massless_mobility.hpp"
+#include "netsim/mobility/path_mobility.hpp"
 #include "netsim/mobility/stationary_mobility.hpp"
 
 namespace netsim {
@@ -14,6 +15,7 @@ std::unique_ptr<Mobility> mobility_named(const char* type_name) {
     MobilityConfig config;
     config.type_name = type_name;
     config.speed_mps = 3;
+    config.area_min = config.center = {5, 0, 0};
     return make_mobility(config, {5, 0, 0});
 }
 
@@ -27,6 +29,7 @@ TEST(MakeMobility, EveryNameOfTheConfigurationHasAModel) {
 TEST(MakeMobility, ChoosesByName) {
     EXPECT_NE(dynamic_cast<MasslessMobility*>(mobility_named("MasslessMobility").get()), nullptr);
     EXPECT_NE(dynamic_cast<StationaryMobility*>(mobility_named("StationaryMobility").get()), nullptr);
+    EXPECT_NE(dynamic_cast<PathMobility*>(mobility_named("CircleMobility").get()), nullptr);
 }
 
 TEST(MakeMobility, HandsTheSpeedOn) {

@@ -162,7 +162,7 @@ def test_a_velocity_of_another_package_is_not_a_speed() -> None:
 def test_a_stationary_node_refuses_valid_commands() -> None:
     command = SetSpeedMobilityCommand(3)
     assert repr(command) in wrong_mobility(command, 1, can_move=False)
-    assert "stationary" not in wrong_mobility(SetSpeedMobilityCommand(math.nan), 1, can_move=False)
+    assert "follow" not in wrong_mobility(SetSpeedMobilityCommand(math.nan), 1, can_move=False)
 
 
 ORIGIN: Position = (10.0, 20.0, 5.0)

@@ -61,13 +61,16 @@ def test_a_stationary_node_refuses_to_move(make_scenario):
         "        self.provider.send_mobility_command(GotoCoordsMobilityCommand(0, 0, 100))",
         '*.uavs[*].mobility.typename = "StationaryMobility"',
     )
-    with pytest.raises(Exception, match="stationary"):
+    with pytest.raises(Exception, match="does not follow commands"):
         run_of(scenario)
 
 
 @pytest.mark.parametrize("typename", re.findall(r'"(\w+)"', TYPENAME.kind.expected))
 def test_each_way_to_move_is_known(flown_scenario, make_scenario, typename):
-    settings = f'*.uavs[0].mobility.typename = "{typename}"', "*.uavs[0].mobility.separationX = 10m"
+    settings = [f'*.uavs[0].mobility.typename = "{typename}"', "*.uavs[0].mobility.separationX = 10m"]
+    settings += ["*.uavs[0].mobility.r = 10m"]
+    settings += [f"*.uavs[0].mobility.constraintAreaM{end} = 0m" for end in ("inX", "inY")]
+    settings += [f"*.uavs[0].mobility.constraintAreaM{end} = 9m" for end in ("axX", "axY")]
     make, of_it = (flown_scenario, ()) if typename == ARDUPILOT else (make_scenario, settings)
     build_simulation(make("class Tested(Quiet): pass", *of_it))
 
@@ -75,9 +78,9 @@ def test_each_way_to_move_is_known(flown_scenario, make_scenario, typename):
 def test_a_way_to_move_that_it_does_not_have_is_refused(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", '*.uavs[1].mobility.typename = "MasslessMobility"')
     other, spec = scenario.nodes
-    typename = replace(spec.mobility["typename"], value="CircleMobility")
+    typename = replace(spec.mobility["typename"], value="MassMobility")
     nodes = (other, replace(spec, mobility={"typename": typename}))
-    with pytest.raises(ConfigError, match="CircleMobility"):
+    with pytest.raises(ConfigError, match="MassMobility"):
         build_simulation(replace(scenario, nodes=nodes))
 
 

@@ -59,10 +59,9 @@ void check_other_node_id(const Node& node, std::string_view field, std::int64_t 
 
 void check_can_move(const Node& node, std::string_view protocol) {
     if (!node.can_move()) {
-        throw ConfigError({"mobility.typename",
-                           "\"StationaryMobility\"",
-                           {"expected \"MasslessMobility\" for " + node.name() + ", as " +
-                            std::string(protocol) + " flies"}});
+        throw ConfigError({.field = "mobility.typename",
+                           .message = {"expected \"MasslessMobility\" for " + node.name() + ", as " +
+                                       std::string(protocol) + " flies"}});
     }
 }
 

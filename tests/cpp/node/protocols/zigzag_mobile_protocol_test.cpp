@@ -51,8 +51,7 @@ TEST(ZigZagMobileProtocolOnANodeThatStands, IsRefused) {
     config.mobility.type_name = "StationaryMobility";
     set_native_protocol(network.add_node(config), "ZigZagMobileProtocol");
     EXPECT_EQ(error_text([&] { network.initialize(); }),
-              "mobility.typename = \"StationaryMobility\": expected \"MasslessMobility\" for node, as "
-              "ZigZagMobileProtocol flies");
+              "mobility.typename: expected \"MasslessMobility\" for node, as ZigZagMobileProtocol flies");
 }
 
 TEST_F(ZigZagMobileTest, CollectsReadings) {

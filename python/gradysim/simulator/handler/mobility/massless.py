@@ -1,6 +1,7 @@
 """Vehicles without mass: they fly straight to their target at their speed, and stop there."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -45,7 +46,7 @@ class MasslessMobilityConfiguration:
 class _NodeSettings:
     speed_mps: float | None = None
     telemetry_interval_s: float | None = None
-    stationary: bool = False
+    refuses_commands: bool = False
 
 
 class MasslessMobilityHandler(INodeHandler):
@@ -55,6 +56,7 @@ class MasslessMobilityHandler(INodeHandler):
         nodes: Registered nodes by id.
         targets: Targets (x, y, z) in meters by id; they stay after arrival.
         speeds: m/s by id.
+        paths: Given paths by id: functions from simulated seconds to positions (x, y, z) in meters.
     """
 
     def __init__(self, configuration: MasslessMobilityConfiguration | None = None) -> None:
@@ -67,6 +69,7 @@ class MasslessMobilityHandler(INodeHandler):
         self.nodes: dict[int, Node[Any]] = {}
         self.targets: dict[int, Position] = {}
         self.speeds: dict[int, float] = {}
+        self.paths: dict[int, Callable[[float], Position]] = {}
         self._telemetry: dict[float, TelemetryGroup] = {}
 
     @staticmethod
@@ -81,6 +84,7 @@ class MasslessMobilityHandler(INodeHandler):
         speed: float | None = None,
         telemetry_interval: float | None = None,
         stationary: bool = False,
+        path: Callable[[float], Position] | None = None,
     ) -> None:
         """Set how one node moves, before it is registered. It holds in every simulation of this handler.
 
@@ -90,6 +94,8 @@ class MasslessMobilityHandler(INodeHandler):
             telemetry_interval: s: telemetry comes with the first update at or after each multiple. It is
                 at least the time between two updates, which is also the default, or 0 for no telemetry.
             stationary: The node refuses every command.
+            path: The position (x, y, z) in meters by the simulated time in seconds. It holds at each update,
+                and the node refuses every command.
 
         Raises:
             ValueError: A number is outside its range.
@@ -107,7 +113,9 @@ class MasslessMobilityHandler(INodeHandler):
                     f"telemetry_interval of node {node_id} is {telemetry_interval!r} s: expected 0 or at "
                     f"least the update_rate of the positions, {rate!r} s"
                 )
-        self._settings[node_id] = _NodeSettings(speed, telemetry_interval, stationary)
+        self._settings[node_id] = _NodeSettings(speed, telemetry_interval, stationary or path is not None)
+        if path is not None:
+            self.paths[node_id] = path
 
     def inject(self, event_loop: EventLoop) -> None:
         """Take the event loop of a new simulation; the first update comes one `update_rate` from now."""
@@ -152,7 +160,7 @@ class MasslessMobilityHandler(INodeHandler):
         if getattr(command, "command_type", None) == MobilityCommandType.GOTO_GEO_COORDS:
             target = geo_target(command, node.id, self._configuration.reference_coordinates)
             command = GotoCoordsMobilityCommand(*target)
-        can_move = node.id not in self._settings or not self._settings[node.id].stationary
+        can_move = node.id not in self._settings or not self._settings[node.id].refuses_commands
         if wrong := wrong_mobility(command, node.id, can_move):
             raise MasslessMobilityException(wrong)
         if command.command_type == MobilityCommandType.SET_SPEED:
@@ -177,11 +185,14 @@ class MasslessMobilityHandler(INodeHandler):
     def _move(self) -> bool:
         """Move each node one step of speed * update_rate straight towards its target, and not beyond.
 
-        Return whether a node moved.
+        Nodes with a path move on it. Return whether a node moved.
         """
         on_their_way = False
         update_rate = self._configuration.update_rate
         nodes = self.nodes
+        for node_id, path in self.paths.items():
+            on_their_way = True
+            nodes[node_id].position = path(self._times.time_of(self._updates))
         speeds = self.speeds
         for node_id, target in self.targets.items():
             node = nodes[node_id]
