@@ -8,6 +8,7 @@
     gradysim means DIR [QUANTITY...] [--csv]
     gradysim compare DIR DIR [--metric QUANTITY] ...
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
+    gradysim import FILE.ini [-o DIR]
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -29,6 +30,7 @@ from gradysim.cli.calibrate import calibrate_power
 from gradysim.cli.check import check_file
 from gradysim.cli.compare import compare
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
+from gradysim.cli.import_file import import_file
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.new import make_project
@@ -77,6 +79,7 @@ app.command(print_means, name="means")
 app.command(compare)
 app.command(draw_figure, name="plot")
 app.command(list_keys, name="keys")
+app.command(import_file, name="import")
 app.command(calibrate_power, name="calibrate")
 
 

@@ -1,0 +1,61 @@
+"""`gradysim import`: translates an omnetpp.ini of OMNeT++, and lists what was done with each of its lines."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from gradysim.cli.errors import MISTAKE, OK, say_mistake
+from gradysim.cli.options import FileArgument
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from gradysim.omnetpp_import import Outcome, Translation
+
+OutputOption = Annotated[
+    Path,
+    Parameter(
+        name="--output", alias="-o", help="The directory of the translated file, which has the same name."
+    ),
+]
+
+
+def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported")) -> int:
+    """Translate an .ini file of OMNeT++, and list what was done with each line."""
+    from gradysim.omnetpp_import import translate
+    from gradysim.scenario.errors import ConfigError
+
+    target = output / file.name
+    if target.exists():
+        print(f"{target} is there already; expected another directory: -o DIR", file=sys.stderr)
+        return MISTAKE
+    try:
+        translation = translate(file, output)
+        output.mkdir(parents=True, exist_ok=True)
+        target.write_text(translation.text, encoding="utf-8")
+    except (ConfigError, OSError) as mistake:
+        return say_mistake(mistake)
+    for line in _rows(translation, file):
+        print(line)
+    counts = ", ".join(f"{count} {action.value}" for action, count in translation.counts().items())
+    print(f"{target}: {counts}")
+    return OK
+
+
+def _rows(translation: "Translation", file: Path) -> "Iterator[str]":
+    for outcome in translation.outcomes:
+        place = ""
+        if outcome.entry is not None:
+            source = outcome.entry.source
+            place = str(source.line) if source.file == file else f"{source.file.name}:{source.line}"
+        yield f"{place:>5}  {outcome.action.value:8}  {_text(outcome)}".rstrip()
+
+
+def _text(outcome: "Outcome") -> str:
+    entry = outcome.entry
+    before = "" if entry is None else f"{entry.key} = {entry.source.value}"
+    line = " ".join(outcome.text.split("\n"))
+    changed = " -> ".join(text for text in dict.fromkeys((before, line)) if text)
+    return f"{changed}  ({outcome.note})" if outcome.note else changed

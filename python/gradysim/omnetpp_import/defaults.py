@@ -1,0 +1,122 @@
+"""What a file of OMNeT++ does not say: the defaults of its NED file, and lines that only the user knows."""
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from gradysim.omnetpp_import.lines import CLASS_TO_WRITE, Action, Outcome
+from gradysim.omnetpp_import.ned import NedNetwork, NedNode
+from gradysim.omnetpp_import.tables import DEFAULT_MOBILITY, DRAWN_BY_DEFAULT, NODE_TYPES, VALUES
+from gradysim.scenario.errors import BadValue
+from gradysim.scenario.functions import is_quoted, unquoted
+from gradysim.scenario.ini import Entry
+from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, RECTANGLE
+from gradysim.scenario.patterns import compile_pattern
+
+_SOME_OTHER = 999_999
+"""Index of a node that only lines for all nodes match."""
+
+
+def translated_lines(outcomes: Iterable[Outcome]) -> list[Entry]:
+    """Return the lines of the translated file, and those that the user writes."""
+    return [
+        Entry(key, text, outcome.entry.source)
+        for outcome in outcomes
+        if outcome.entry
+        for key, equals, text in [outcome.text.partition(" = ")]
+        if equals
+    ]
+
+
+def defaults_of(
+    network: NedNetwork, entries: Sequence[Entry], lines: Sequence[Entry], in_force: Sequence[Entry]
+) -> Iterator[Outcome]:
+    """Yield the defaults of a network, except those that lines in force in all configurations override.
+
+    Args:
+        network: The network.
+        entries: All lines of the file, as they were.
+        lines: The translated lines.
+        in_force: Those of the translated lines that are in force in all configurations of the network.
+    """
+
+    def default(path: str, first: str, value: str) -> Iterator[Outcome]:
+        if not _is_set(first, in_force):
+            yield Outcome(Action.ADDED, None, f"*.{path} = {value}", f"default of {network.source}")
+
+    medium = VALUES["radioMedium.typename"].get(network.medium, network.medium)
+    if medium:
+        yield from default("radioMedium.typename", "radioMedium.typename", f'"{medium}"')
+    for node in network.nodes:
+        if node.size in network.sizes:
+            yield from default(node.size_key, node.size_key, network.sizes[node.size])
+        for path, value in NODE_TYPES[node.type].items():
+            first = path.replace("[*]", "[0]")
+            yield from default(f"{node.written}.{path}", f"{node.first}.{first}", value)
+        mobility = _mobility(node, entries)
+        typename = "mobility.typename"
+        yield from default(f"{node.written}.{typename}", f"{node.first}.{typename}", f'"{DEFAULT_MOBILITY}"')
+        for name, value in {
+            **DRAWN_BY_DEFAULT.get(mobility, {}),
+            **_place(node, mobility, entries, lines),
+        }.items():
+            yield from default(f"{node.written}.mobility.{name}", f"{node.first}.mobility.{name}", value)
+
+
+def _mobility(node: NedNode, entries: Iterable[Entry]) -> str:
+    """Return the first mobility that the file gives a node."""
+    text = next(_texts_for(f"{node.first}.mobility.typename", entries), DEFAULT_MOBILITY)
+    return unquoted(text) if is_quoted(text) else text
+
+
+def _place(node: NedNode, mobility: str, entries: Sequence[Entry], lines: Sequence[Entry]) -> dict[str, str]:
+    """Return {parameter: value} of where a node starts if no line says it."""
+    if mobility in (CIRCLE, RECTANGLE):
+        return {}
+    reads_display = "false" not in _texts_for(f"{node.first}.mobility.initFromDisplayString", entries)
+    if reads_display and node.place:
+        return {"initialX": f"{node.place[0]}m", "initialY": f"{node.place[1]}m"}
+    start = f"{node.first}.mobility.initial"
+    places: dict[str, str] = {}
+    for axis in "XY":
+        area = [
+            next(_texts_for(f"{node.first}.mobility.constraintArea{end}{axis}", entries), "")
+            for end in ("Min", "Max")
+        ]
+        if not _is_set(f"{start}{axis}", lines) and all(area):
+            places[f"initial{axis}"] = f"uniform({area[0]}, {area[1]})"
+    return places
+
+
+def _is_set(path: str, entries: Iterable[Entry]) -> bool:
+    return next(_texts_for(path, entries), None) is not None
+
+
+def _texts_for(path: str, entries: Iterable[Entry]) -> Iterator[str]:
+    """Yield the values of the lines that match a path below the network."""
+    for entry in entries:
+        if "." not in entry.key:
+            continue
+        try:
+            pattern = compile_pattern(entry.key)
+        except BadValue:
+            continue
+        network = entry.key.partition(".")[0]
+        if pattern.matches(f"{network if network.isidentifier() else 'N'}.{path}"):
+            yield entry.text
+
+
+def missing_classes(
+    network: NedNetwork, entries: Sequence[Entry], lines: Sequence[Entry]
+) -> Iterator[Outcome]:
+    """Yield a line for the protocol of each group of nodes for which `lines` have none.
+
+    `entries` are all lines of the file, as they were.
+    """
+    for node in network.nodes:
+        last = f"{node.name}[{_SOME_OTHER}]" if node.size else node.name
+        if _is_set(f"{last}.{PROTOCOL_CLASS.path}", lines):
+            continue
+        app = next(_texts_for(f"{node.first}.app[0].typename", entries), "").strip('"')
+        what = f"in Python, what {app} does" if app else "what the node runs"
+        if _is_set(f"{node.first}.{PROTOCOL_CLASS.path}", lines):
+            what = "what the others run"
+        yield Outcome(Action.TO_WRITE, None, f"*.{node.written}.{CLASS_TO_WRITE}", what)

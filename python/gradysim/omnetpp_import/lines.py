@@ -1,0 +1,311 @@
+"""Translates single lines: kept, renamed, left out, or to be written by the user."""
+
+import contextlib
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from gradysim.omnetpp_import.tables import (
+    CLASS_NAMES,
+    FILE_NAME,
+    GEOGRAPHIC,
+    LOCATION,
+    NO_AREA,
+    NO_MEANING,
+    NO_RADIO_TYPE,
+    ORIGIN,
+    PROTOCOL,
+    RENAMED,
+    TO_WRITE,
+    UNIT_DISK,
+    UNIT_DISK_MEDIUM,
+    VALUES,
+)
+from gradysim.protocol.position import geo_to_cartesian
+from gradysim.scenario.errors import BadValue, ConfigError
+from gradysim.scenario.expressions import ParameterContext, parse_value
+from gradysim.scenario.functions import is_quoted, unquoted
+from gradysim.scenario.ini import Entry
+from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN
+from gradysim.scenario.lookup import is_ignored, is_option, read_scalar
+from gradysim.scenario.parameter_types import number_in
+from gradysim.scenario.patterns import Pattern, compile_pattern
+from gradysim.scenario.schema import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS, Key
+from gradysim.scenario.sweep import name_iterations
+
+
+class Action(Enum):
+    """What was done with a line."""
+
+    KEPT = "kept"
+    RENAMED = "renamed"
+    ADDED = "added"
+    LEFT_OUT = "left out"
+    TO_WRITE = "to write"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One line of the list.
+
+    Attributes:
+        action: What was done.
+        entry: The line of the file; None for one that the file does not have.
+        text: The line here, "" if there is none. For `TO_WRITE` the user completes it.
+        note: Why, or what for.
+    """
+
+    action: Action
+    entry: Entry | None = None
+    text: str = ""
+    note: str = ""
+
+    @property
+    def is_in_force(self) -> bool:
+        """Whether the line is one of the translated file, and not a comment in it."""
+        return bool(self.text) and self.action is not Action.TO_WRITE
+
+
+_PART = re.compile(r"(?:\[[^\]]*\]|\{[^}]*\}|[^.\[{])+")
+"""A part of a key; ranges in brackets have dots of their own."""
+
+CLASS_TO_WRITE = 'protocol.class = "FILE.py:CLASS"'
+
+
+class LineTranslator:
+    """Translates the lines of a file."""
+
+    def __init__(self, entries: Sequence[Entry], size_keys: dict[str, str], folder: str) -> None:
+        """Take all lines of the file.
+
+        Args:
+            entries: The lines of all sections.
+            size_keys: {parameter of the network: the key for the number of nodes here}.
+            folder: The directory of the file, from that of the translation.
+        """
+        self._entries = entries
+        self._size_keys = size_keys
+        self._folder = folder
+        self._has_area = any(
+            entry.key.endswith("mobility.typename")
+            and re.search("LinearMobility|RectangleMobility", entry.text)
+            for entry in entries
+        )
+
+    def outcome(self, entry: Entry) -> Outcome:
+        """Return what becomes of a line."""
+        if is_option(entry):
+            return _option(entry)
+        parts = _PART.findall(entry.key)
+        if is_ignored(entry):
+            return Outcome(Action.LEFT_OUT, entry, note="only OMNeT++ reads it")
+        if len(parts) == 2 and parts[1] in self._size_keys:
+            return _renamed(entry, f"{parts[0]}.{self._size_keys[parts[1]]}")
+        name = parts[-1]
+        if len(parts) > 2 and parts[-2] == "protocol":
+            return self._protocol(entry, ".".join(parts[:-2]), name)
+        if name in GEOGRAPHIC and parts[-2] == "mobility":
+            return self._geographic(entry, ".".join(parts[:-1]), GEOGRAPHIC[name])
+        if name.startswith("constraintArea") and not self._has_area:
+            return Outcome(Action.LEFT_OUT, entry, note=NO_AREA)
+        if outcome := _to_write(entry, ".".join(parts[:-1])) or _of_radio(entry):
+            return outcome
+        return self._parameter(entry, parts)
+
+    def _parameter(self, entry: Entry, parts: Sequence[str]) -> Outcome:
+        key = entry.key
+        for before, after in RENAMED:
+            key = before.sub(rf"\g<1>{after}", key)
+        for end, values in VALUES.items():
+            if f".{key}".endswith(f".{end}"):
+                return self._checked(entry, key, _with_values(entry.text, values))
+        if _own_keys(entry, key):
+            return self._checked(entry, key, entry.text)
+        modules = (re.split(r"[\[*{]", part)[0] for part in parts[1:])
+        reason = next((NO_MEANING[module] for module in modules if module in NO_MEANING), "")
+        return Outcome(Action.LEFT_OUT, entry, note=reason or "there is no such parameter")
+
+    def _checked(self, entry: Entry, key: str, text: str) -> Outcome:
+        """Return the outcome of a line with a key of this simulator: its value may not be one."""
+        line = f"{key} = {text}"
+        keys = _own_keys(entry, key)
+        if wrong := _wrong_value(entry, key, text, keys):
+            return Outcome(Action.TO_WRITE, entry, f"{key} = ...", f"{text}: {wrong}")
+        is_same = (key, text) == (entry.key, entry.text)
+        return Outcome(Action.KEPT if is_same else Action.RENAMED, entry, line)
+
+    def _geographic(self, entry: Entry, mobility: str, coordinate: str) -> Outcome:
+        """Place a latitude, longitude or altitude relative to the origin of the scene."""
+        target = f"{mobility}.{coordinate}"
+        if not self._is_geographic(mobility):
+            return Outcome(Action.LEFT_OUT, entry, note="without coordinateSystemModule it had no effect")
+        unit = "m" if coordinate == "initialZ" else "deg"
+        origin = self._of_scene(ORIGIN[coordinate], unit)
+        try:
+            place = _number_in(unit, entry.text)
+        except BadValue as error:
+            return Outcome(Action.TO_WRITE, entry, f"{target} = ...", f"{entry.text}: {error}")
+        axis = "XYZ".index(coordinate[-1])
+        here, there = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
+        here[axis], there[axis] = origin, place
+        if axis == 1:  # meters per degree of longitude depend on the latitude of the scene
+            here[0] = there[0] = self._of_scene("sceneLatitude", "deg")
+        meters = geo_to_cartesian((here[0], here[1], here[2]), (there[0], there[1], there[2]))[axis]
+        return _renamed(
+            entry, target, f"{round(meters, 3) + 0.0:g}m" if abs(meters) < 1e3 else f"{meters:.3f}m"
+        )
+
+    def _is_geographic(self, mobility: str) -> bool:
+        """Return whether nodes of that name have geographic positions."""
+        group = _group(mobility)
+        return any(
+            entry.key.endswith(".coordinateSystemModule")
+            and entry.text != '""'
+            and fnmatchcase(group, _group(entry.key))
+            for entry in self._entries
+        )
+
+    def _of_scene(self, parameter: str, unit: str) -> float:
+        for entry in self._entries:
+            if entry.key.endswith(f"coordinateSystem.{parameter}"):
+                with contextlib.suppress(BadValue):
+                    return _number_in(unit, entry.text)
+        return 0.0
+
+    def _protocol(self, entry: Entry, node: str, name: str) -> Outcome:
+        """Translate a parameter of a protocol. In GrADyS' project, several name a class in Python."""
+        python = {other.key.rpartition(".")[2]: other for other in self._entries if self._is_of(other, node)}
+        class_key = next((key for key in CLASS_NAMES if key in python), PROTOCOL)
+        if name == "typename":
+            protocol = unquoted(entry.text) if is_quoted(entry.text) else entry.text
+            if protocol.startswith("Python"):
+                return Outcome(Action.LEFT_OUT, entry, note="another line names the class")
+            what = f"in Python, what {protocol} does"
+            return Outcome(Action.TO_WRITE, entry, f"{node}.{CLASS_TO_WRITE}", what)
+        if name not in (*CLASS_NAMES, FILE_NAME, LOCATION, PROTOCOL):
+            note = "if it is an attribute of your class"
+            return Outcome(Action.TO_WRITE, entry, f"{entry.key} = {entry.text}", note)
+        if name != class_key or FILE_NAME not in python:
+            return Outcome(Action.LEFT_OUT, entry, note="part of `protocol.class`")
+        texts = {key: unquoted(other.text) for key, other in python.items() if is_quoted(other.text)}
+        folders = [self._folder, texts.get(LOCATION, ".")]
+        folders += [texts[PROTOCOL]] if class_key != PROTOCOL and PROTOCOL in texts else []
+        file = Path(*folders) / f"{texts[FILE_NAME].removesuffix('.py')}.py"
+        return _renamed(entry, f"{node}.protocol.class", f'"{file.as_posix()}:{texts[class_key]}"')
+
+    @staticmethod
+    def _is_of(entry: Entry, node: str) -> bool:
+        return entry.key.startswith(f"{node}.protocol.") and "." not in entry.key[len(node) + 10 :]
+
+
+def _group(key: str) -> str:
+    """Return the name below the network in a key, without its index."""
+    parts = _PART.findall(key)
+    return parts[1].partition("[")[0] if len(parts) > 1 else ""
+
+
+def _to_write(entry: Entry, module: str) -> Outcome | None:
+    """Return the outcome of a line whose counterpart only the user knows; None for another line."""
+    for end, (line, purpose) in TO_WRITE.items():
+        if entry.key.endswith(f".{end}"):
+            is_of_module = line and not line.startswith("*")
+            return Outcome(Action.TO_WRITE, entry, f"{module}.{line}" if is_of_module else line, purpose)
+    return None
+
+
+def _of_radio(entry: Entry) -> Outcome | None:
+    """Return the outcome of a line that says what kind of radio a node has; None for another line."""
+    for end, values in UNIT_DISK:
+        if entry.key.endswith(f".{end}") and entry.text.strip('"') in values:
+            return Outcome(Action.RENAMED, entry, f'*.radioMedium.typename = "{UNIT_DISK_MEDIUM}"')
+    if entry.key.endswith((".radio.typename", ".radio[*].typename")):
+        return Outcome(Action.LEFT_OUT, entry, note=NO_RADIO_TYPE)
+    return None
+
+
+def _option(entry: Entry) -> Outcome:
+    if entry.key in (*OPTIONS, *SECTION_OPTIONS, NETWORK):
+        return Outcome(Action.KEPT, entry, f"{entry.key} = {entry.text}")
+    if is_ignored(entry):
+        return Outcome(Action.LEFT_OUT, entry, note="only OMNeT++ reads it")
+    for option, instead in REFUSED_OPTIONS.items():
+        if fnmatchcase(entry.key, option):
+            return Outcome(Action.LEFT_OUT, entry, note=instead)
+    return Outcome(Action.LEFT_OUT, entry, note="there is no such option")
+
+
+def _renamed(entry: Entry, key: str, text: str = "") -> Outcome:
+    line = f"{key} = {text or entry.text}"
+    return Outcome(Action.KEPT if line == f"{entry.key} = {entry.text}" else Action.RENAMED, entry, line)
+
+
+def _with_values(text: str, values: Mapping[str, str]) -> str:
+    """Replace each quoted value that has another name here."""
+    return re.sub(r'"([^"]*)"', lambda match: f'"{values.get(match[1], match[1])}"', text)
+
+
+def _number_in(unit: str, text: str) -> float:
+    """Return a number with or without a unit. Raises BadValue for anything else."""
+    return float(number_in(unit).convert(parse_value(text)))
+
+
+def _own_keys(entry: Entry, key: str = "") -> list[Key]:
+    """Return the keys of this simulator that the key of a line matches, judged by what is below a name."""
+    try:
+        pattern = compile_pattern(key or entry.key)
+    except BadValue:
+        return []
+    parts = pattern.split()
+    if parts is not None and len(parts) == 3:
+        matches = parts[2].matches
+        if parts[1].literal in NETWORK_MODULES:
+            return [each for each in NETWORK_KEYS if pattern.matches(f"{_network(pattern)}.{each.path}")]
+        return [each for each in NODE_KEYS if any(map(matches, _at_interfaces(each.path)))]
+    below = pattern.below_anything
+    if below is not None and below[1] is not None:  # `**.host.mobility.speed`
+        matches = below[1].matches
+        if found := [each for each in NODE_KEYS if any(map(matches, _at_interfaces(each.path)))]:
+            return found
+    matches = pattern.matches
+    of_nodes = [
+        each for each in NODE_KEYS if any(matches(f"N.n[0].{path}") for path in _at_interfaces(each.path))
+    ]
+    return of_nodes + [each for each in NETWORK_KEYS if matches(f"N.{each.path}")]
+
+
+def _network(pattern: Pattern) -> str:
+    parts = pattern.split()
+    return (parts[0].literal if parts else None) or "N"
+
+
+def _at_interfaces(path: str) -> Iterator[str]:
+    return (path.replace(WLAN, f"wlan[{index}]") for index in range(4))
+
+
+def _wrong_value(entry: Entry, key: str, text: str, keys: Sequence[Key]) -> str:
+    """Return what is wrong with a value for these keys; "" if nothing is, or if it cannot be decided here."""
+    if not keys:
+        return "there is no such parameter"
+    changed = Entry(key, text, entry.source)
+    try:
+        (named,), variables = name_iterations([changed])
+    except ConfigError:  # a variable of another line
+        return ""
+    values = [named.text]
+    for variable in variables:
+        name = f"${{{variable.name}}}"
+        values = [value.replace(name, each) for value in values for each in variable.values]
+    for value in values:
+        for each in keys:
+            if each.kind.is_file or "${" in value:
+                continue
+            try:
+                read_scalar(
+                    Entry(key, value, entry.source), each.kind, "n", ParameterContext(0, f"n[0].{each.path}")
+                )
+            except ConfigError as error:
+                return f"expected {error.expected}" if error.expected else error.problem
+    return ""
