@@ -109,11 +109,18 @@ def missing_classes(
 ) -> Iterator[Outcome]:
     """Yield a line for the protocol of each group of nodes for which `lines` have none.
 
+    A single node also needs one if only a line with wildcards matches it.
+
     `entries` are all lines of the file, as they were.
     """
     for node in network.nodes:
         last = f"{node.name}[{_SOME_OTHER}]" if node.size else node.name
-        if _is_set(f"{last}.{PROTOCOL_CLASS.path}", lines):
+        if chosen := next(_texts_for(f"{last}.{PROTOCOL_CLASS.path}", lines), ""):
+            if not node.size and not any(
+                f".{node.name}." in line.key for line in lines if chosen == line.text
+            ):
+                note = "a single node is one that a line names"
+                yield Outcome(Action.ADDED, None, f"*.{last}.{PROTOCOL_CLASS.path} = {chosen}", note)
             continue
         app = next(_texts_for(f"{node.first}.app[0].typename", entries), "").strip('"')
         what = f"in Python, what {app} does" if app else "what the node runs"

@@ -1,0 +1,61 @@
+"""`gradysim import`: the list, the file, and what is refused."""
+
+from pathlib import Path
+
+import pytest
+
+from gradysim.cli.app import main
+
+INI = """[General]
+network = GradysNetwork
+repeat = 2
+*.numUAVs = 1
+*.quads[*].numApps = 1
+include more.ini
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    (tmp_path / "omnetpp.ini").write_text(INI)
+    (tmp_path / "more.ini").write_text('*.quads[*].protocol.typename = "DadcaProtocol"\n')
+    return tmp_path / "omnetpp.ini"
+
+
+def test_the_list(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", str(file), "-o", str(tmp_path / "here")]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:5] == [
+        "    2  kept      network = GradysNetwork",
+        "    3  kept      repeat = 2",
+        "    4  renamed   *.numUAVs = 1 -> *.numQuads = 1",
+        "    5  left out  *.quads[*].numApps = 1  (the protocol of a node sends its messages)",
+        'more.ini:1  to write  *.quads[*].protocol.typename = "DadcaProtocol" -> *.quads[*].protocol.class ='
+        ' "FILE.py:CLASS"  (in Python, what DadcaProtocol does)',
+    ]
+    assert lines[5] == (
+        '       added     *.radioMedium.typename = "Ieee802154NarrowbandScalarRadioMedium"'
+        "  (default of GradysNetwork)"
+    )
+    assert lines[-1].startswith(f"{tmp_path / 'here' / 'omnetpp.ini'}: 2 kept, 1 renamed, 1 left out, ")
+
+
+def test_the_file(file: Path, tmp_path: Path) -> None:
+    assert main(["import", str(file), "-o", str(tmp_path / "here")]) == 0
+    text = (tmp_path / "here" / "omnetpp.ini").read_text()
+    assert text.startswith(
+        "# From omnetpp.ini, by `gradysim import`.\n\n[General]\nnetwork = GradysNetwork\n"
+    )
+    assert '\n# to write: *.quads[*].protocol.class = "FILE.py:CLASS"  (in Python, what' in text
+
+
+def test_a_file_that_is_there_is_not_overwritten(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", str(file), "-o", str(file.parent)]) == 2
+    assert "is there already" in capsys.readouterr().err
+    assert file.read_text() == INI
+
+
+def test_a_file_that_is_not_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["import", str(tmp_path / "omnet.ini"), "-o", str(tmp_path / "here")]) == 2
+    assert "no such file" in capsys.readouterr().err
+    assert not (tmp_path / "here").exists()

@@ -1,0 +1,36 @@
+"""What docs/how-to/import-an-omnetpp-file.md shows is what happens."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gradysim.cli.app import main
+from python.quiet_protocol import QUIET
+
+pytest.importorskip("gradysim._netsim")
+
+GUIDE = "docs/how-to/import-an-omnetpp-file.md"
+
+
+def test_its_commands_do_what_it_says(
+    code_blocks: Callable[[str, str], list[str]],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    shown, before = code_blocks(GUIDE, "text")
+    command, further = code_blocks(GUIDE, "sh")
+    Path("omnetpp.ini").write_text(before)
+    Path("fleet.py").write_text(
+        QUIET + "".join(f"class {name}(Quiet): ...\n" for name in ("Uav", "Sensor", "Station"))
+    )
+    assert main(command.split()[1:]) == 0
+    assert capsys.readouterr().out == shown
+    (lines,) = code_blocks(GUIDE, "ini")
+    with Path("imported/omnetpp.ini").open("a") as file:
+        file.write(lines)
+    for line in further.splitlines():
+        assert main(line.split()[1:]) == 0
+    assert "0 errors and 0 warnings" in capsys.readouterr().out

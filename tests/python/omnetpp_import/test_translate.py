@@ -1,0 +1,109 @@
+"""Files as a whole: sections, variables, time limits; and that the result loads."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gradysim.omnetpp_import import Action, Translation, translate
+from gradysim.scenario import load_scenarios
+from gradysim.scenario.errors import ConfigError
+from python.quiet_protocol import QUIET
+
+Translated = Callable[..., Translation]
+
+INI = """[General]
+cmdenv-status-frequency = 10s
+*.visualizer.**.displayRoutes = true
+**.mobility.initFromDisplayString = false
+*.coordinateSystem.sceneLatitude = -15.84deg
+*.coordinateSystem.sceneLongitude = -47.92deg
+
+[Config Wifi]
+network = GradysNetwork
+*.quads[*].app[0].typename = "UdpCommunicationApp"
+*.quads[*].protocol.typename = "PythonDroneProtocol"
+*.quads[*].mobility.typename = "DroneMobility"
+*.*.mobility.coordinateSystemModule = "coordinateSystem"
+*.quads[*].mobility.homeLatitude = -15.841deg
+*.groundStation.mobility.initialLatitude = -15.84deg
+**.wlan[*].mac.*.rateSelection.dataFrameBitrate = 6Mbps
+
+[Config Study]
+extends = Wifi
+sim-time-limit = ${20s, 10s, 5s ! speed}
+*.numUAVs = 2
+*.quads[*].mobility.speed = ${speed=5mps, 10mps}
+*.quads[1].mobility.homeLatitude = -15.842deg
+*.*.protocol.protocolFileName = "quiet"
+*.*.protocol.protocolMobile = "Quiet"
+"""
+
+
+def test_the_result_loads(translated: Translated, tmp_path: Path) -> None:
+    translation = translated(INI)
+    (tmp_path / "quiet.py").write_text(QUIET)
+    (tmp_path / "imported").mkdir()
+    file = tmp_path / "imported" / "omnetpp.ini"
+    file.write_text(translation.text)
+    scenarios = load_scenarios(file, "Study")
+    assert [scenario.sim_time_limit_s for scenario in scenarios] == [20, 10]
+    names = {spec.name for spec in scenarios[0].nodes}
+    assert names == {"quads[0]", "quads[1]", "sensors[0]", "groundStation"}
+    assert scenarios[0].medium["typename"].value == "Ieee802154NarrowbandScalarRadioMedium"
+    first = next(spec for spec in scenarios[0].nodes if spec.name == "quads[0]")
+    assert first.initial_position == pytest.approx((-111.195, 0, 0))
+
+
+def test_each_line_is_listed_once_in_its_order(translated: Translated) -> None:
+    outcomes = translated(INI).outcomes
+    listed = [outcome.entry.source.line for outcome in outcomes if outcome.entry]
+    lines = INI.splitlines()
+    assert listed == [number for number, line in enumerate(lines, 1) if "=" in line]
+    assert all(outcome.entry is None for outcome in outcomes[len(listed) :])
+
+
+def test_counts(translated: Translated) -> None:
+    counts = translated(INI).counts()
+    assert counts.total() == len(translated(INI).outcomes)
+    assert counts[Action.TO_WRITE] == 0
+
+
+def test_a_base_without_a_time_limit_becomes_abstract(translated: Translated) -> None:
+    text = translated(INI).text
+    assert "abstract = true" in text[text.index("[Config Wifi]") : text.index("[Config Study]")]
+
+
+def test_time_limits_that_are_missing(translated: Translated) -> None:
+    everywhere = translated("[General]\n[Config A]\n[Config B]\nextends = A\n").text
+    assert everywhere.count("# to write: sim-time-limit") == 1
+    in_one = translated("[Config A]\n[Config B]\nsim-time-limit = 1s\n").text
+    assert "[Config A]\n# to write: sim-time-limit" in in_one
+
+
+def test_each_of_several_networks_has_its_own_defaults(translated: Translated) -> None:
+    ned = "network N { submodules: radioMedium: UnitDiskRadioMedium; host: AdhocHost; }"
+    text = translated("[Config A]\nnetwork = GradysNetwork\n[Config B]\nnetwork = N\n", ned).text
+    first, second = text.split("[Config B]")
+    assert "Narrowband" in first
+    assert "Narrowband" not in second
+    assert '*.radioMedium.typename = "UnitDiskRadioMedium"' in second
+
+
+def test_lines_that_lose_their_variable_are_left_to_the_user(translated: Translated) -> None:
+    text = translated(
+        "[General]\nsim-time-limit = ${1s, 2s ! wait}\n"
+        '*.quads[*].protocol.wait = ${wait=1s, 2s}\nexperiment-label = "${wait} in ${configname}"\n'
+    ).text
+    assert text.count("# to write:") == 3
+
+
+def test_continued_values_stay_indented(translated: Translated) -> None:
+    text = translated("[General]\nsim-time-limit = ${1s,\n  2s}\n").text
+    assert "sim-time-limit = ${1s,\n    2s}\n" in text
+
+
+def test_a_file_that_is_not_understood(tmp_path: Path) -> None:
+    (tmp_path / "omnetpp.ini").write_text("[General\n")
+    with pytest.raises(ConfigError, match="is not a heading"):
+        translate(tmp_path / "omnetpp.ini", tmp_path)
