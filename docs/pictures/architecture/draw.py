@@ -30,6 +30,7 @@ CONTENTS = {
     "__main__": "python -m gradysim",
     "cli": "commands, options, processes of runs",
     "stepping": "runs in steps",
+    "omnetpp_import": "OMNeT++ files",
     "prototype": "runs in Python",
     "integrated": "runs in C++",
     "plots": "figures",

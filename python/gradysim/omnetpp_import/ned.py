@@ -1,4 +1,4 @@
-"""What NED files say of networks: the radio medium, the nodes with their numbers, types and places.
+"""What NED files declare: networks with the radio medium, the nodes with their numbers, types and places.
 
 Only declarations of this form are read: `name[size]: Type`, `name: <default("Type")> like ...`,
 `int size = default(2)` and `@display("p=100,200")`.

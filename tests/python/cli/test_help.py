@@ -17,7 +17,9 @@ def test_help_names_the_commands(gradysim):
     assert "runs " in done.stdout
 
 
-@pytest.mark.parametrize("command", ["run", "check", "runs", "means", "compare", "plot", "keys", "import", "calibrate"])
+@pytest.mark.parametrize(
+    "command", ["run", "check", "runs", "means", "compare", "plot", "keys", "import", "calibrate"]
+)
 def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
     shown = re.findall(
         r"^│ *\*? *(--\S+)(?: (-\w))?.*? {2,}\w", gradysim(command, "--help").stdout, re.MULTILINE
