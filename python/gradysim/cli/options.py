@@ -130,6 +130,10 @@ class RunOptions:
     runs: Annotated[str | None, Parameter(alias="-r")] = None
     """Run numbers such as 0..3,5; all runs of the configuration by default."""
 
+    share: str | None = None
+    """I/N: of these runs only every Nth, from position I = 0 to N-1 on. auto: as the variables of SLURM,
+    Grid Engine or MPI say. auto/N: for PBS and Kubernetes, which do not say N."""
+
     mode: Mode = "integrated"
     """The 802.11 network of the compiled engine, or the plain simulator in Python. Their messages reach 786 m
     and 60 m by default: `gradysim keys range`."""

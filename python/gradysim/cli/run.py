@@ -35,6 +35,7 @@ from gradysim.cli.output import (
 )
 from gradysim.cli.runs import check, findings_of, tell, warnings_of_seeds
 from gradysim.cli.until import checked_until, rounds_of
+from gradysim.cli.share import part_of_share
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -96,8 +97,12 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             make_result_dir(options.directory)
         # Output of protocols at import must not get between the JSON objects.
         with redirect_stdout(sys.stderr) if options.as_json else nullcontext():
+            part = part_of_share(options.share)
             with waiting(f"reading {file}", shown=bar):
-                study = check(file, options.config, options.runs, options.settings, options.seed)
+                study = check(file, options.config, options.runs, options.settings, options.seed, part)
+                if not len(study):
+                    print(f"{study.config}: --share {options.share} has no run", file=sys.stderr)
+                    return OK
                 checked = study.checked_in_full()
             check_network, build = simulator(options)
             check_names(checked, options, len(study))

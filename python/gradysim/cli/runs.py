@@ -34,9 +34,14 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
 
 
 def check(
-    file: Path, config: str, runs: str | None, settings: Sequence[str], seed: int | None = None
+    file: Path,
+    config: str,
+    runs: str | None,
+    settings: Sequence[str],
+    seed: int | None = None,
+    part: slice = slice(None),
 ) -> "Study":
-    """Return the runs of a configuration, checked. Raises ConfigError.
+    """Return the runs of a configuration, or a part of them, checked. Raises ConfigError.
 
     Prints to standard error which of `settings` have no effect because an earlier one has the same key.
     """
@@ -46,7 +51,7 @@ def check(
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
     with contextlib.chdir("."):  # files of protocols run, and may change the directory
-        return Study(file, config, runs, settings, seed, names)
+        return Study(file, config, runs, settings, seed, names, part)
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:

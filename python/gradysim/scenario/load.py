@@ -97,8 +97,12 @@ class Study(Sequence[Scenario]):
         overrides: Iterable[str],
         seed: int | None,
         names: ArgumentNames,
+        part: slice = slice(None),
     ) -> None:
-        """Read and check it; arguments and exceptions are those of `load_scenarios`."""
+        """Read and check it; arguments and exceptions are those of `load_scenarios`.
+
+        Of the wanted runs, only those at the positions `part` are read, which may be none.
+        """
         if not isinstance(config, str):
             raise TypeError(f"{names.config} {config!r}: expected the name of a configuration")
         self._seed = None if seed is None else whole_seed(seed)
@@ -118,7 +122,7 @@ class Study(Sequence[Scenario]):
             self._network = network_name(lines)
             lines, variables = name_iterations(lines)
             self._options = options_in_force(lines)
-            self._runs = numbered_runs(self._options, variables, config, runs, source, names.runs)
+            self._runs = numbered_runs(self._options, variables, config, runs, source, names.runs, part)
             if self._seed is not None and self._runs:
                 check_seeds_of_runs(self._seed, self._runs.numbers[-1], names.seed)
         except ConfigError as error:
@@ -283,7 +287,7 @@ class Study(Sequence[Scenario]):
         if self._seed is None:
             return of_file
         if isinstance(numbers, range):
-            return range(self._seed, self._seed + len(numbers))
+            return range(self._seed + numbers.start, self._seed + numbers.stop, numbers.step)
         return [self._seed + number for number in numbers]
 
     def _variables(self, run: NumberedRun, seed: int | None, names: Set[str] | None = None) -> dict[str, str]:

@@ -99,8 +99,9 @@ def numbered_runs(
     runs: str | Iterable[int] | None,
     source: Source,
     name: str,
+    part: slice = slice(None),
 ) -> NumberedRuns:
-    """Return the runs that are wanted.
+    """Return the runs that are wanted, or a part of them.
 
     All runs are the combinations of values that the constraint leaves, each repeated. Repetitions are values
     of one more variable, the innermost one unless `iteration-nesting-order` says otherwise. `source` is the
@@ -127,8 +128,8 @@ def numbered_runs(
         if not allowed:
             problem = f"none of {combined} combinations of values is left; expected one at least"
             raise ConfigError.at(constraint.source, problem)
-    numbers = select_runs(runs, len(allowed), config, repetitions.source, made_of, name)
-    places = allowed if runs is None else [allowed[number] for number in numbers]
+    numbers = select_runs(runs, len(allowed), config, repetitions.source, made_of, name)[part]
+    places = allowed if len(numbers) == len(allowed) else [allowed[number] for number in numbers]
     return NumberedRuns(numbers, len(allowed), combinations, places)
 
 
