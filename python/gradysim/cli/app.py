@@ -5,6 +5,7 @@
     gradysim check FILE.ini [-c CONFIG]
     gradysim view FILE.ini|FILE.html...
     gradysim runs FILE.ini [-c CONFIG]
+    gradysim status DIR FILE.ini [-c CONFIG] [--missing]
     gradysim means DIR [QUANTITY...] [--csv]
     gradysim compare DIR DIR [--metric QUANTITY] ...
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
@@ -14,7 +15,7 @@
 
 Exit codes: 0 success; 1 a protocol failed, or ended its process; 2 an error in the arguments or the .ini
 file, or an error of the system, such as a full disk; 3 another process computes a run; 4 a run needs more
-than --memory; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
+than --memory; 5 runs are missing; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
 Each command has its own file in `gradysim.cli`.
 """
 
@@ -37,6 +38,7 @@ from gradysim.cli.new import make_project
 from gradysim.cli.plot import draw_figure
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
+from gradysim.cli.status import print_status
 from gradysim.cli.view import view
 
 if TYPE_CHECKING:
@@ -75,6 +77,7 @@ app.command(check_file, name="check")
 app.command(view)
 app.command(make_project, name="new")
 app.command(list_runs, name="runs")
+app.command(print_status, name="status")
 app.command(print_means, name="means")
 app.command(compare)
 app.command(draw_figure, name="plot")

@@ -1,7 +1,8 @@
 """Results of earlier runs in --result-dir: runs that --resume skips, and results that need --replace."""
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -52,7 +53,6 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
 
     Prints the other runs, and the outdated ones. Raises ConfigError without a directory.
     """
-    from gradysim.results.files import files_changed_since, run_file
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_files, text_of_runs
 
@@ -64,18 +64,12 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
         )
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
-    for place, number in enumerate(study.numbers):
-        if not run_file(result_dir, study.config, number, options.mode).exists():
-            left.append(place)
-            continue
-        scenario = study[place]
-        if is_done(scenario, options):
+    for place, (number, state, changed) in enumerate(states_of(study, options)):
+        if state is State.DONE:
             done.append(number)
             continue
         left.append(place)
-        if changed := files_changed_since(
-            scenario, options.mode, result_dir, ids_of_fates(scenario, options)
-        ):
+        if changed:
             outdated.setdefault(changed, []).append(number)
     for files, runs in outdated.items():
         print(
@@ -90,6 +84,44 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
             file=sys.stderr,
         )
     return left
+
+
+class State(Enum):
+    """What the directory has of a run. The value is the label in `gradysim status`."""
+
+    DONE = "done"
+    MISSING = "missing"
+    INCOMPLETE = "failed or interrupted"
+    OF_OTHER_SETTINGS = "of other settings"
+    OF_OTHER_FILES = "of other files"
+    WITHOUT_OUTPUT = "without requested files"
+
+
+def states_of(study: "Study", options: RunOptions) -> Iterator[tuple[int, State, tuple[str, ...]]]:
+    """Yield the number of each run, its state, and the files that have changed since, as --resume does."""
+    from gradysim.results.files import run_file
+
+    for place, number in enumerate(study.numbers):
+        if not run_file(options.directory, study.config, number, options.mode).exists():
+            yield number, State.MISSING, ()
+        else:
+            yield number, *_state_of(study[place], options)
+
+
+def _state_of(scenario: "Scenario", options: RunOptions) -> tuple[State, tuple[str, ...]]:
+    """Return the state of a run that has a result, and the files that have changed since."""
+    from gradysim.results.files import files_changed_since, has_other_settings
+
+    if is_done(scenario, options):
+        return State.DONE, ()
+    changed = files_changed_since(scenario, options.mode, options.directory, ids_of_fates(scenario, options))
+    if changed:
+        return State.OF_OTHER_FILES, changed
+    if changed is not None:
+        return State.WITHOUT_OUTPUT, ()
+    if has_other_settings(scenario, options.mode, options.directory):
+        return State.OF_OTHER_SETTINGS, ()
+    return State.INCOMPLETE, ()
 
 
 def is_done(scenario: "Scenario", options: RunOptions) -> bool:

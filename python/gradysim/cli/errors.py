@@ -12,7 +12,7 @@ from typing import TextIO
 
 PACKAGE = Path(__file__).resolve().parent.parent
 
-OK, FAILED, MISTAKE, LOCKED, OVER_MEMORY, INTERRUPTED = 0, 1, 2, 3, 4, 130
+OK, FAILED, MISTAKE, LOCKED, OVER_MEMORY, INCOMPLETE, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130
 
 _TAKES_NO_MORE = {errno.EPIPE, errno.ENOSPC, errno.EFBIG, errno.EDQUOT, errno.EIO}
 

@@ -1,9 +1,9 @@
-"""Ctrl-C, SIGTERM and SIGHUP during runs.
+"""Ctrl-C, SIGTERM and SIGHUP during runs, and the time of --stop-after.
 
 Ctrl-C is a request to stop: the first press sets a flag, the second one raises KeyboardInterrupt. A run stops
 between two of its slices and keeps its results. A second press leaves a callback that never returns. While
-worker processes carry out the runs, a third press kills them. SIGTERM and SIGHUP do the same. Their sender
-does not send them again, so the next presses come by themselves.
+worker processes carry out the runs, a third press kills them. SIGTERM, SIGHUP and the end of the time do the
+same. They come once, so the next presses come by themselves.
 """
 
 import contextlib
@@ -15,7 +15,7 @@ from collections.abc import Collection, Iterator
 from types import FrameType
 from typing import Any, Self
 
-from gradysim.cli.errors import INTERRUPTED, OK
+from gradysim.cli.errors import INCOMPLETE, INTERRUPTED, OK
 
 FORWARDED = signal.SIGUSR1 if hasattr(signal, "SIGUSR1") else signal.SIGINT
 """What the command sends its workers when Ctrl-C is pressed.
@@ -33,12 +33,20 @@ _ONCE = [number for number in STOPPING if number != signal.SIGINT]
 """The kernel, the shell and others may send the same signal. The next presses come automatically."""
 
 _GRACE_S = {1: 0.3, 2: 20.0}
-"""{presses: wall time in seconds until the next one comes automatically, after SIGTERM and SIGHUP}.
+"""{presses: wall time in seconds until the next one comes automatically, if it was not Ctrl-C}.
 
 A callback that returns does so in the first period. The second one is for a worker that writes large files.
 """
 
-_REPLIES: dict[int, bytes] = {signal.SIGINT: b"\nstopping after this step; Ctrl-C once more stops at once\n"}
+_AT_ONCE_S = 1e-3
+
+_ALARM = getattr(signal, "SIGALRM", None)
+"""Signal of the timer."""
+
+_REPLIES: dict[int | None, bytes] = {
+    signal.SIGINT: b"\nstopping after this step; Ctrl-C once more stops at once\n",
+    _ALARM: b"\n--stop-after: stopping after this step\n",
+}
 _REPLY = b"\nstopping after this step\n"
 
 _OUTPUT, _ERROR_OUTPUT = 1, 2  # file descriptors
@@ -53,10 +61,13 @@ class StopOnInterrupt:
 
     Attributes:
         workers: Ids of the processes that each press is forwarded to; None if this process executes the runs.
-        exit_code: Exit code of a stopped command: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
+        exit_code: Exit code of a stopped command: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP, 5
+            after the time of --stop-after.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, stop_after_s: float | None = None) -> None:
+        """Prepare; `stop_after_s` is the wall time in seconds from entry to a press."""
+        self._stop_after_s = stop_after_s
         self.workers: Collection[int] | None = None
         self.exit_code = INTERRUPTED
         self._presses: Counter[int] = Counter()
@@ -112,6 +123,8 @@ class StopOnInterrupt:
             for number in STOPPING:
                 if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN:
                     self._previous[number] = signal.signal(number, self._on_signal)
+            if self._stop_after_s is not None:
+                self._press_after(max(self._stop_after_s, _AT_ONCE_S))
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -137,7 +150,7 @@ class StopOnInterrupt:
 
     def _press(self, number: int, presses: int) -> None:
         if presses == 1:
-            self.exit_code = 128 + number
+            self.exit_code = INCOMPLETE if number == _ALARM else 128 + number
         raises = self._raises_at(presses)
         if raises and not self._in_worker:
             for each in self._previous:
@@ -149,7 +162,7 @@ class StopOnInterrupt:
             raise KeyboardInterrupt
         if not self._in_worker:
             if number != signal.SIGINT:
-                self._press_again_after(_GRACE_S.get(presses, 0.0))
+                self._press_after(_GRACE_S.get(presses, 0.0))
             if presses == 1:
                 with contextlib.suppress(OSError):  # sys.stderr may be in the middle of a line
                     os.write(_ERROR_OUTPUT, _REPLIES.get(number, _REPLY))
@@ -161,8 +174,8 @@ class StopOnInterrupt:
             return presses > 1
         return not self._in_worker and presses > (1 if self.workers is None else 2)
 
-    def _press_again_after(self, duration_s: float) -> None:
-        """Make SIGALRM the next press, after a wall time in seconds."""
+    def _press_after(self, duration_s: float) -> None:
+        """Make SIGALRM the next press, after a wall time in seconds; 0 for never."""
         handler = signal.signal(signal.SIGALRM, self._on_alarm)
         self._previous.setdefault(signal.SIGALRM, handler)
         self._has_timer = True

@@ -21,6 +21,10 @@ DEFAULT_DIR = Path("results")
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
 ResultsArgument = Annotated[Path, Parameter(name="DIR", help="The directory of `run --result-dir`.")]
+RunsOption = Annotated[
+    str | None,
+    Parameter(alias="-r", help="Run numbers such as 0..3,5; all runs of the configuration by default."),
+]
 ConfigOption = Annotated[str, Parameter(alias="-c", help="Name of the configuration: a section of the file.")]
 SetOption = Annotated[
     tuple[str, ...],
@@ -127,8 +131,7 @@ class RunOptions:
 
     config: ConfigOption = "General"
 
-    runs: Annotated[str | None, Parameter(alias="-r")] = None
-    """Run numbers such as 0..3,5; all runs of the configuration by default."""
+    runs: RunsOption = None
 
     share: str | None = None
     """I/N: of these runs only every Nth, from position I = 0 to N-1 on. auto: as the variables of SLURM,
@@ -159,6 +162,9 @@ class RunOptions:
 
     jobs: Annotated[Integer, Parameter(alias="-j")] = 1
     """Number of runs at the same time."""
+
+    stop_after: str | None = None
+    """Wall time such as 55min, after which the command stops as after Ctrl-C. The exit code is 5 then."""
 
     memory: str | None = None
     """Memory that each run may allocate, such as 2GB. A run that needs more ends, and the others continue."""
@@ -214,6 +220,27 @@ class RunOptions:
     def writes_files(self) -> bool:
         """Whether the directory must exist before the runs. Captures create it themselves."""
         return self.result_dir is not None or self.scalars or bool(self.vectors) or bool(self.replay)
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class StatusOptions:
+    """Options of `gradysim status`, those of the command that computes the runs."""
+
+    config: ConfigOption = "General"
+
+    runs: RunsOption = None
+
+    mode: Mode = "integrated"
+    """As in `gradysim run`."""
+
+    settings: SetOption = ()
+
+    seed: Integer | None = None
+    """As in `gradysim run`."""
+
+    missing: Flag = False
+    """Print only the numbers of the runs that are not done, as `gradysim run -r` takes them."""
 
 
 @Parameter(name="*")

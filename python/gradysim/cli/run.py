@@ -2,7 +2,9 @@
 
 import gc
 import os
+import signal
 import sys
+import time
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, chdir, nullcontext, redirect_stdout, suppress
@@ -24,7 +26,7 @@ from gradysim.cli.errors import (
     say_mistake,
 )
 from gradysim.cli.memory import checked_limit
-from gradysim.cli.options import FileArgument, RunOptions
+from gradysim.cli.options import FileArgument, RunOptions, option_value
 from gradysim.cli.output import (
     check_file_names,
     check_may_be_written_to,
@@ -57,6 +59,9 @@ DEFAULTS = RunOptions()
 _MOST_SUBMITTED = 1000
 """Number of runs submitted to an executor before the first of them has ended."""
 
+_LONGEST_S = 366 * 86400
+"""Longest time of --stop-after: a year."""
+
 _SHOW_CURSOR = "\r\x1b[?25h"
 """A progress bar hides the cursor, and a dead worker does not show it again."""
 
@@ -86,12 +91,14 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     from gradysim.results.run_lock import RunLockedError, remove_left_over_files
     from gradysim.scenario.errors import ConfigError, ErrorCollector
 
+    begin_s = time.monotonic()
     gc.freeze()  # excludes modules from the open files, which the runner searches
     bar = not options.quiet and not options.as_json
     try:
         check_jobs(options.jobs)
         memory_bytes = checked_limit(options.memory)
         until = checked_until(options)
+        stop_after_s = checked_duration(options.stop_after)
         check_sqlite(options)
         if options.writes_files:
             make_result_dir(options.directory)
@@ -169,7 +176,8 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     import_what_runs_use(options)
     if options.is_writer:
         remove_left_over_files(options.directory)
-    with StopOnInterrupt() as interrupt:
+    left_s = None if stop_after_s is None else stop_after_s - (time.monotonic() - begin_s)
+    with StopOnInterrupt(left_s) as interrupt:
         workers = ForkExecutor(options.jobs, interrupt) if executor is None else nullcontext(executor)
         with workers as chosen:
             try:
@@ -340,6 +348,19 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
     except OSError as error:
         output_error = error
     return code, output_error
+
+
+def checked_duration(text: str | None) -> float | None:
+    """Return the time of --stop-after in seconds; None for no limit. Raises ConfigError."""
+    from gradysim.scenario.errors import ConfigError
+    from gradysim.scenario.parameter_types import quantity
+
+    if text is None:
+        return None
+    duration_s = float(option_value("--stop-after", text, quantity("s", above=0, at_most=_LONGEST_S)))
+    if not hasattr(signal, "setitimer"):
+        raise ConfigError(f"--stop-after {text}: this system has no timer that could stop a command")
+    return duration_s
 
 
 def check_jobs(jobs: int) -> None:

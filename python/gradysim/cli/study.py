@@ -1,4 +1,4 @@
-"""The runs in the directory of a study, for `gradysim means`, `gradysim plot` and `gradysim compare`."""
+"""The directory of a study, and the runs in it, for commands that read them."""
 
 import shlex
 import sys
@@ -19,9 +19,7 @@ def read_study(directory: Path) -> "Runs":
     from gradysim.results.run_table import runs
     from gradysim.scenario.errors import ConfigError
 
-    if not directory.is_dir():
-        reason = "it is not a directory" if directory.exists() else "there is no such directory"
-        raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
+    check_directory(directory)
     found = runs(directory)
     if not len(found):
         reason = "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
@@ -63,6 +61,15 @@ def check_quantities(
                 expected=f"one that `gradysim means {shlex.quote(str(directory))}` prints",
                 suggestion=nearest(quantity, known),
             )
+
+
+def check_directory(directory: Path) -> None:
+    """Raise ConfigError if there is no such directory."""
+    from gradysim.scenario.errors import ConfigError
+
+    if not directory.is_dir():
+        reason = "it is not a directory" if directory.exists() else "there is no such directory"
+        raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
 
 
 def warn_of_mixed_runs(directory: Path, results: "Runs") -> None:

@@ -18,7 +18,7 @@ def test_help_names_the_commands(gradysim):
 
 
 @pytest.mark.parametrize(
-    "command", ["run", "check", "runs", "means", "compare", "plot", "keys", "import", "calibrate"]
+    "command", ["run", "check", "runs", "status", "means", "compare", "plot", "keys", "import", "calibrate"]
 )
 def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
     shown = re.findall(

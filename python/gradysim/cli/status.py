@@ -1,0 +1,60 @@
+"""`gradysim status`: which runs of a configuration have a result in a directory."""
+
+from collections import defaultdict
+from collections.abc import Sequence
+from pathlib import Path
+
+from gradysim.cli.earlier_results import State, states_of
+from gradysim.cli.errors import INCOMPLETE, OK, say_mistake
+from gradysim.cli.options import FileArgument, ResultsArgument, RunOptions, StatusOptions
+from gradysim.cli.runs import check
+from gradysim.cli.study import check_directory
+
+DEFAULTS = StatusOptions()
+
+
+def print_status(
+    directory: ResultsArgument, file: FileArgument, /, *, options: StatusOptions = DEFAULTS
+) -> int:
+    """List which runs of a configuration are done. The exit code is 0 only if all of them are."""
+    from gradysim.scenario.errors import ConfigError
+    from gradysim.scenario.runs import text_of_runs
+
+    found: dict[tuple[State, tuple[str, ...]], list[int]] = defaultdict(list)
+    try:
+        check_directory(directory)
+        study = check(file, options.config, options.runs, options.settings, options.seed)
+        for number, state, changed in states_of(study, _as_of_resume(directory, options)):
+            found[state, changed].append(number)
+    except (ConfigError, OSError) as mistake:
+        return say_mistake(mistake)
+    done = found.get((State.DONE, ()), [])
+    if options.missing:
+        if left := sorted(set(study.numbers).difference(done)):
+            print(text_of_runs(left))
+    else:
+        print(f"{study.config}: {len(done)} of {len(study)} runs are done in {directory}")
+        rows = {_label(*key): numbers for key, numbers in found.items()}
+        width, digits = max(map(len, rows)), len(str(len(study)))
+        for label, numbers in rows.items():
+            print(f"{label:{width}}  {len(numbers):{digits}}  {text_of_runs(numbers)}")
+    return OK if len(done) == len(study) else INCOMPLETE
+
+
+def _label(state: State, changed: Sequence[str]) -> str:
+    from gradysim.scenario.runs import text_of_files
+
+    return f"older than {text_of_files(changed)}" if changed else state.value
+
+
+def _as_of_resume(directory: Path, options: StatusOptions) -> RunOptions:
+    """Return the options of `gradysim run --resume` with the same runs."""
+    return RunOptions(
+        config=options.config,
+        runs=options.runs,
+        mode=options.mode,
+        settings=options.settings,
+        seed=options.seed,
+        result_dir=directory,
+        resume=True,
+    )
