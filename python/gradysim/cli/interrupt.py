@@ -38,8 +38,6 @@ _GRACE_S = {1: 0.3, 2: 20.0}
 A callback that returns does so in the first period. The second one is for a worker that writes large files.
 """
 
-_AT_ONCE_S = 1e-3
-
 _ALARM = getattr(signal, "SIGALRM", None)
 """Signal of the timer."""
 
@@ -124,7 +122,9 @@ class StopOnInterrupt:
                 if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN:
                     self._previous[number] = signal.signal(number, self._on_signal)
             if self._stop_after_s is not None:
-                self._press_after(max(self._stop_after_s, _AT_ONCE_S))
+                self._press_after(max(self._stop_after_s, 0.0))
+                if self._stop_after_s <= 0:
+                    signal.raise_signal(signal.SIGALRM)
         return self
 
     def __exit__(self, *_: object) -> None:

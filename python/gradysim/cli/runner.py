@@ -45,26 +45,29 @@ class WorkerError(Exception):
     """
 
     def __init__(self, text: str, exit_code: int | None) -> None:
-        super().__init__(text)
+        super().__init__(text, exit_code)  # both, so that it can be pickled
         self.exit_code = exit_code
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 class RunFuture(Future[T]):
-    """Future of a task. `result()` runs the executor, which has no thread.
+    """Future of a task. `result()` runs the executor, which has no thread: it calls `advance`.
 
     Attributes:
         printed: Output of the task to standard output and standard error; empty if it was not captured.
     """
 
-    def __init__(self, executor: "ForkExecutor") -> None:
+    def __init__(self, advance: Callable[[], None]) -> None:
         super().__init__()
         self.printed: tuple[bytes, ...] = ()
-        self._executor = executor
+        self._advance = advance
 
     def result(self, timeout: float | None = None) -> T:
         """Wait for the task to end, and return what it returned or raise what it raised."""
         while not self.done():
-            self._executor.advance()
+            self._advance()
         return super().result(timeout)
 
 
@@ -90,11 +93,14 @@ class ForkExecutor(Executor):
     see `RunFuture.printed`. If the system cannot fork, tasks are called in this process.
     """
 
-    def __init__(self, jobs: int, interrupt: StopOnInterrupt) -> None:
-        """Prepare for `jobs` tasks at a time; `interrupt` forwards Ctrl-C to the workers."""
+    def __init__(self, jobs: int, interrupt: StopOnInterrupt, *, captures: bool = False) -> None:
+        """Prepare for `jobs` tasks at a time.
+
+        `interrupt` forwards Ctrl-C to the workers. With `captures`, output is captured in all cases.
+        """
         self._jobs = jobs
         self._interrupt = interrupt
-        self._captures = jobs > 1 or not (_is_file(sys.stdout) and _is_file(sys.stderr))
+        self._captures = captures or jobs > 1 or not (_is_file(sys.stdout) and _is_file(sys.stderr))
         self._waiting: deque[tuple[RunFuture[Any], Callable[[], Any]]] = deque()
         self._workers: dict[int, _Worker] = {}
         self._files = _open_files()
@@ -103,7 +109,7 @@ class ForkExecutor(Executor):
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> RunFuture[T]:
         """Submit a call of `fn` with these arguments."""
-        future: RunFuture[T] = RunFuture(self)
+        future: RunFuture[T] = RunFuture(self.advance)
         self._waiting.append((future, lambda: fn(*args, **kwargs)))
         return future
 
@@ -164,7 +170,7 @@ class ForkExecutor(Executor):
         """Run as the worker: call the task, write its result or exception to a file, and exit."""
         code = 1
         try:
-            _end_with(parent)
+            end_with(parent)
             ident = threading.get_ident()
             os.register_at_fork(after_in_child=partial(_end_with_worker, os.getpid(), ident))
             if worker.printed:
@@ -242,7 +248,7 @@ def _flush(file: IO[Any] | io.IOBase) -> None:
         file.flush()
 
 
-def _end_with(parent: int) -> None:
+def end_with(parent: int) -> None:
     """Kill this process when its parent dies. Linux only."""
     if _prctl is not None:
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -5,7 +5,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from gradysim.cli.options import RunOptions
-from gradysim.cli.run import run_file, text_of_unfinished
+from gradysim.cli.run import run_file
+from gradysim.cli.run_all import text_of_unfinished
 
 
 @pytest.mark.parametrize(

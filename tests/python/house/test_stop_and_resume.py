@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.cli.run import text_of_unfinished
+from gradysim.cli.run_all import text_of_unfinished
 
 GUIDE = "docs/how-to/stop-and-resume.md"
 
