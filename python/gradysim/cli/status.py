@@ -34,7 +34,8 @@ def print_status(
             print(text_of_runs(left))
     else:
         print(f"{study.config}: {len(done)} of {len(study)} runs are done in {directory}")
-        rows = {_label(*key): numbers for key, numbers in found.items()}
+        keys = sorted(found, key=lambda key: (list(State).index(key[0]), key[1]))
+        rows = {_label(*key): found[key] for key in keys}
         width, digits = max(map(len, rows)), len(str(len(study)))
         for label, numbers in rows.items():
             print(f"{label:{width}}  {len(numbers):{digits}}  {text_of_runs(numbers)}")

@@ -20,9 +20,9 @@ def test_the_states_of_runs_are_listed(gradysim, folder):
     assert done.stdout.splitlines() == [
         "General: 3 of 6 runs are done in out",
         "done                   3  0,2,5",
+        "missing                1  4",
         "failed or interrupted  1  1",
         "of other settings      1  3",
-        "missing                1  4",
     ]
 
 

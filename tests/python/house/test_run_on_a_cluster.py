@@ -1,0 +1,79 @@
+"""The commands on docs/how-to/run-on-a-cluster.md print what is shown. SLURM's programs are toys."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+GUIDE = "docs/how-to/run-on-a-cluster.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+Shell = Callable[[str, Path], str]
+
+SBATCH = f"""#!{sys.executable}
+import os
+import subprocess
+import sys
+
+array, command = sys.argv[1].removeprefix("--array="), sys.argv[sys.argv.index("--wrap") + 1]
+first, last = map(int, array.split("-"))
+names = {{"MIN": first, "MAX": last, "STEP": 1, "COUNT": last - first + 1}}
+shared = {{f"SLURM_ARRAY_TASK_{{name}}": str(number) for name, number in names.items()}}
+for task in range(first, last + 1):
+    variables = {{**os.environ, **shared, "SLURM_ARRAY_TASK_ID": str(task)}}
+    subprocess.run(["bash", "-euc", command], env=variables, check=True, stdout=subprocess.DEVNULL)
+"""
+
+
+@pytest.fixture
+def slurm(shell: Shell, tmp_path: Path) -> None:
+    """Make a program `sbatch` that computes an array, one task after the other."""
+    program = tmp_path / "bin" / "sbatch"
+    program.write_text(SBATCH)
+    program.chmod(0o755)
+
+
+def without_times(printed: str) -> list[str]:
+    return [re.sub(r"[\d.]+ s$", "", line) for line in printed.splitlines()]
+
+
+@pytest.mark.usefixtures("slurm")
+def test_an_array_does_all_runs(code_blocks: CodeBlocks, shell: Shell, tmp_path: Path) -> None:
+    (commands,) = code_blocks(GUIDE, "sh")
+    assert shell(commands, tmp_path).endswith(code_blocks(GUIDE, "text")[0])
+
+
+def test_a_share_and_what_is_missing_are_as_shown(code_blocks: CodeBlocks, shell: Shell, swarm: Path) -> None:
+    for block in code_blocks(GUIDE, "console"):
+        for step in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+            command, _, shown = step.partition("\n")
+            assert without_times(shell(f"{command} || test $? -eq 5", swarm)) == without_times(shown)
+
+
+def test_the_script_of_a_job_runs(code_blocks: CodeBlocks, shell: Shell, swarm: Path) -> None:
+    (script,) = code_blocks(GUIDE, "bash")
+    (swarm / "study.sh").write_text(script.replace("--stop-after 55min", "--stop-after 1us"))
+    (swarm / "bin" / "scontrol").write_text('#!/bin/sh\necho "$@"\n')
+    (swarm / "bin" / "scontrol").chmod(0o755)
+    names = {"MIN": 0, "MAX": 3, "STEP": 1, "COUNT": 4, "ID": 2}
+    variables = " ".join(f"SLURM_ARRAY_TASK_{name}={number}" for name, number in names.items())
+    command = f"env {variables} SLURM_ARRAY_JOB_ID=12 bash study.sh"
+    assert shell(command, swarm).splitlines()[-1] == "requeue 12_2"
+    (swarm / "study.sh").write_text(script)
+    assert "requeue" not in shell(command, swarm)
+    assert len(list((swarm / "results").iterdir())) == 5
+
+
+def test_another_executor_computes_the_study(code_blocks: CodeBlocks, swarm: Path) -> None:
+    (program,) = code_blocks(GUIDE, "python")
+    (swarm / "pool.py").write_text(program)
+    subprocess.run([sys.executable, "pool.py"], cwd=swarm, env=dict(os.environ), check=True)
+    results = [json.loads(file.read_text()) for file in (swarm / "pool").glob("*.json")]
+    assert sorted(result["run"] for result in results) == list(range(20))
