@@ -33,7 +33,9 @@ def check_executor(options: RunOptions) -> None:
     try:
         import distributed  # noqa: F401
     except ImportError as error:
-        raise ConfigError(f"--executor dask: {error}; expected pip install 'gradysim[dask]'") from error
+        raise ConfigError(
+            f"--executor dask: {error}; expected the package distributed: pip install distributed"
+        ) from error
 
 
 @contextlib.contextmanager
