@@ -11,17 +11,18 @@ if TYPE_CHECKING:
 
 
 def read_study(directory: Path) -> "Runs":
-    """Return the runs in a directory, at least one.
+    """Return the runs in a directory or in a pack, at least one.
 
     Raises ConfigError and OSError.
     """
-    from gradysim.results.means import has_files_for_omnetpp_alone
+    from gradysim.results.result_dir import has_files_for_omnetpp_alone
     from gradysim.results.run_table import runs
     from gradysim.scenario.errors import ConfigError
 
-    if not directory.is_dir():
-        reason = "it is not a directory" if directory.exists() else "there is no such directory"
-        raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
+    if not directory.exists():
+        raise ConfigError(
+            f"{directory}: there is no such directory; expected that of `gradysim run FILE --result-dir DIR`"
+        )
     found = runs(directory)
     if not len(found):
         reason = "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"

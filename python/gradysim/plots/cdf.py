@@ -17,7 +17,7 @@ from gradysim.plots.numbers import (
     series_of,
 )
 from gradysim.results.files import read_run_file
-from gradysim.results.means import RunSummary
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs, nodes_of
 from gradysim.results.tracked_variables import numbers_and_others, tracked_by_group
 from gradysim.scenario.errors import ConfigError
@@ -77,7 +77,7 @@ def _distribution(run: RunSummary, y: str) -> Distribution | None:
                 expected="a result of this version: run it again",
             )
         return delays["cumulative"]["time_s"], delays["cumulative"]["share"]
-    for group, name in run.numeric_variables:
+    for group, name in run.variables:
         if f"{group} {name}" == y:
             numbers, _ = numbers_and_others(tracked_by_group(nodes_of(run))[group], name)
             return _of_values(numbers) if numbers else None

@@ -15,7 +15,7 @@ from gradysim.plots.numbers import (
     series_of,
     x_axis,
 )
-from gradysim.results.means import RunSummary
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs, variables_of
 from gradysim.scenario.errors import ConfigError, nearest
 

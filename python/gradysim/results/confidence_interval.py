@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
 
 CONFIDENCE = 0.95
 """Ratio of such intervals that contain the true mean."""
@@ -28,15 +29,21 @@ def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
     The values are assumed to be independent and normally distributed. A width that overflows a float is
     infinite.
     """
-    from statistics import stdev
-
     if len(values) < 2:
         return mean_of(values), None
     scale = _SMALLER if max(map(abs, values)) > _HUGE else 1.0
-    deviation = stdev([value * scale for value in values])
+    deviation = _standard_deviation([value * scale for value in values])
     return mean_of(values), _quantile(len(values) - 1) * deviation / math.sqrt(len(values)) / scale
 
 
+def _standard_deviation(values: Sequence[float]) -> float:
+    """Return that of a sample. Equal values have exactly 0."""
+    from_first = [value - values[0] for value in values]
+    mean = mean_of(from_first)
+    return math.hypot(*[value - mean for value in from_first]) / math.sqrt(len(values) - 1)
+
+
+@cache
 def _quantile(freedom: int) -> float:
     """Return the t that is exceeded in absolute value with probability 1 - CONFIDENCE; `freedom` >= 1."""
     low, high = 0.0, _LARGEST

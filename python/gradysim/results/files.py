@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from gradysim.results.durable import replacing
+from gradysim.results.pack import packed_bytes
 from gradysim.results.result import Mode, RunResult, plain_iterations
 from gradysim.scenario.runs import HASH_DIGITS, hash_of
 from gradysim.scenario.scenario import Scenario
@@ -123,13 +124,18 @@ def with_checksum(text: str) -> str:
 
 
 def read_run_file(file: Path) -> dict[str, Any]:
-    """Return the JSON object in a result file. A file without a checksum is accepted.
+    """Return the JSON object in a result file, which may be in a pack. One without a checksum is accepted.
 
     Raises:
         OSError: It cannot be read.
         ValueError: It is not a JSON object, or its checksum does not match.
     """
-    text = file.read_text(encoding="utf-8")
+    return parsed(bytes_of(file))
+
+
+def parsed(content: bytes) -> dict[str, Any]:
+    """Return the JSON object in the content of a result file. Raises ValueError as `read_run_file`."""
+    text = content.decode("utf-8").replace("\r\n", "\n")  # written on Windows
     try:
         found = json.loads(text)
     except RecursionError as error:
@@ -144,5 +150,25 @@ def read_run_file(file: Path) -> dict[str, Any]:
     return found
 
 
+def bytes_of(file: Path) -> bytes:
+    """Return the content of a result file, which may be in a pack. Raises OSError."""
+    try:
+        return file.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        packed = packed_bytes(file)
+        if packed is None:
+            raise
+        return packed
+
+
+def hash_of_run_file(file: Path) -> str:
+    """Return the hash of a result file, which may be in a pack. Raises OSError."""
+    return _hash(bytes_of(file))
+
+
 def _hash_of_text(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:HASH_DIGITS]
+    return _hash(text.encode())
+
+
+def _hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:HASH_DIGITS]

@@ -120,9 +120,9 @@ def loss_shares(outcomes: Outcomes) -> dict[str, float]:
 
 
 def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[Average]:
-    ratios = dict(_ratios(counts))
-    if "delivered" in ratios:
-        yield Average(f"{what} delivered", ratios["delivered"])
+    total = sum(counts.values()) - sum(counts.get(outcome, 0) for outcome in _UNDECIDED)
+    if total and "delivered" in counts:
+        yield Average(f"{what} delivered", counts["delivered"] / total)
 
 
 def _ratios(counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:

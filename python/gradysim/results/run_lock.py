@@ -54,14 +54,28 @@ def run_locked(directory: Path, name: str) -> Iterator[None]:
         yield
 
 
+@contextlib.contextmanager
+def all_runs_locked(directory: Path) -> Iterator[None]:
+    """Hold the locks of all runs in a directory. Runs that other processes begin meanwhile wait.
+
+    Raises RunLockedError if another process computes a run in the directory.
+    """
+    file = directory / LOCK_FILE
+    with _locked(file, _ALL):
+        try:
+            yield
+        finally:
+            file.unlink(missing_ok=True)
+
+
 def remove_left_over_files(directory: Path) -> None:
     """Remove unfinished files and the lock file, unless a process computes a run in the directory."""
     try:
         entries = list(os.scandir(directory))
         left_over = [Path(entry) for entry in entries if finished_name(entry.name) is not None]
         if left_over or any(entry.name == LOCK_FILE for entry in entries):
-            with _locked(directory / LOCK_FILE, _ALL):
-                for file in (*left_over, directory / LOCK_FILE):
+            with all_runs_locked(directory):
+                for file in left_over:
                     file.unlink(missing_ok=True)
     except (RunLockedError, OSError):  # the directory is missing or not writable
         return

@@ -10,10 +10,12 @@ from typing import Any, Literal
 
 from gradysim.protocol.plain_value import as_float
 from gradysim.results.files import read_run_file
-from gradysim.results.means import RunSummary, read_results
 from gradysim.results.omnetpp_reader import read_vectors
+from gradysim.results.outcomes import Outcomes
 from gradysim.results.quantity import Names, name_filter, quantities
 from gradysim.results.result import RunResult
+from gradysim.results.result_dir import read_results
+from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import ConfigError, nearest
 
 Per = Literal["run", "node", "time"]
@@ -26,7 +28,7 @@ _TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs",
 
 
 def runs(directory: str | os.PathLike[str]) -> "Runs":
-    """Return the runs in the directory of `gradysim run --result-dir`, without interrupted ones.
+    """Return the runs in the directory of `gradysim run --result-dir` or in a pack, without interrupted ones.
 
     Raises ConfigError for a damaged file, and OSError.
     """
@@ -182,6 +184,12 @@ def nodes_of(run: RunSummary) -> list[dict[str, Any]]:
     """Return the nodes in a run's file. Raises OSError, and ValueError if it is damaged."""
     nodes: list[dict[str, Any]] = read_run_file(run.file)["nodes"]
     return nodes
+
+
+def fates_of(run: RunSummary) -> Outcomes:
+    """Return the outcomes in a run's file. Raises OSError, and ValueError if it is damaged."""
+    fates: Outcomes = read_run_file(run.file)["fates"]
+    return fates
 
 
 def _check(names: Names | None, known: Iterable[str]) -> None:

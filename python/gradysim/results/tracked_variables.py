@@ -16,6 +16,10 @@ Tracked = Mapping[str, Any]
 """{name: value} at one node, as JSON objects have them."""
 
 
+_NUMBERS = {"inf", "-inf", "too large"}
+"""Numbers that have no part in a mean."""
+
+
 def tracked_scalars(tracked: Mapping[str, object], node: str) -> Iterator[Scalar]:
     """Yield `heard:last` and so on, of the variables that are numbers."""
     for name, value in tracked.items():
@@ -35,26 +39,19 @@ class TrackedVariable:
     mean: float | None
     others: Mapping[str, int]
 
+    @property
+    def is_numeric(self) -> bool:
+        """Whether it is a number at any node, even if only an infinite one."""
+        return self.mean is not None or not _NUMBERS.isdisjoint(self.others)
 
-@dataclass(frozen=True)
-class TrackedGroup:
-    """The tracked variables of the nodes of a group."""
 
-    node_count: int
-    variables: Mapping[str, TrackedVariable]
-
-    @classmethod
-    def of(cls, nodes: list[Tracked]) -> "TrackedGroup":
-        """Return those of its nodes."""
-        variables = {}
-        for name in dict.fromkeys(name for tracked in nodes for name in tracked):
-            numbers, others = numbers_and_others(nodes, name)
-            variables[name] = TrackedVariable(mean_of(numbers) if numbers else None, Counter(others))
-        return cls(len(nodes), variables)
-
-    def variable(self, name: str) -> TrackedVariable:
-        """Return one of them, which may be missing at all nodes of this run."""
-        return self.variables.get(name) or TrackedVariable(None, {"missing": self.node_count})
+def variables_of_group(nodes: list[Tracked]) -> dict[str, TrackedVariable]:
+    """Return the tracked variables at the nodes of a group, by name."""
+    variables = {}
+    for name in dict.fromkeys(name for tracked in nodes for name in tracked):
+        numbers, others = numbers_and_others(nodes, name)
+        variables[name] = TrackedVariable(mean_of(numbers) if numbers else None, Counter(others))
+    return variables
 
 
 def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Tracked]]:
@@ -68,17 +65,6 @@ def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Track
 def group_of(node: str) -> str:
     """Return `uavs[*]` for `uavs[0]`; the name itself if it has no index."""
     return re.sub(r"\[\d+\]$", "[*]", node)
-
-
-def numeric_variables(groups: Mapping[str, Iterable[Tracked]]) -> dict[tuple[str, str], None]:
-    """Return (group, name) of each variable that is a number at any node, even if only an infinite one."""
-    return {
-        (group, name): None
-        for group, nodes in groups.items()
-        for tracked in nodes
-        for name in tracked
-        if _not_finite(tracked[name]) in (None, "inf", "-inf", "too large")
-    }
 
 
 def numbers_and_others(nodes: Iterable[Tracked], name: str) -> tuple[list[float], list[str]]:
