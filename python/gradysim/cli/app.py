@@ -8,6 +8,7 @@
     gradysim means DIR [QUANTITY...] [--csv]
     gradysim compare DIR DIR [--metric QUANTITY] ...
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
+    gradysim pack DIR [-o FILE] [--remove] [--unpack]
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -32,6 +33,7 @@ from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_abo
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.new import make_project
+from gradysim.cli.pack import pack_results
 from gradysim.cli.plot import draw_figure
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
@@ -76,6 +78,7 @@ app.command(list_runs, name="runs")
 app.command(print_means, name="means")
 app.command(compare)
 app.command(draw_figure, name="plot")
+app.command(pack_results, name="pack")
 app.command(list_keys, name="keys")
 app.command(calibrate_power, name="calibrate")
 

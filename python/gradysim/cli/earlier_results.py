@@ -21,15 +21,14 @@ if TYPE_CHECKING:
 
 def check_other_settings(study: "Study", options: RunOptions) -> None:
     """Raise ConfigError if these runs would replace results of other settings or seeds without --replace."""
-    from gradysim.results.files import run_file
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_runs
 
-    others = []
-    for place, number in enumerate(study.numbers if options.is_writer else ()):
-        file = run_file(options.directory, study.config, number, options.mode)
-        if file.exists() and is_of_other_settings(study[place], options):
-            others.append(number)
+    others = [
+        study.numbers[place]
+        for place in (_with_result(study, options) if options.is_writer else ())
+        if is_of_other_settings(study[place], options)
+    ]
     if others:
         raise ConfigError(
             f"--result-dir {options.directory}: it has results with other settings or seeds for"
@@ -52,7 +51,7 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
 
     Prints the other runs, and the outdated ones. Raises ConfigError without a directory.
     """
-    from gradysim.results.files import files_changed_since, run_file
+    from gradysim.results.files import files_changed_since
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_files, text_of_runs
 
@@ -64,8 +63,9 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
         )
     left, done = [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
+    with_result = set(_with_result(study, options))
     for place, number in enumerate(study.numbers):
-        if not run_file(result_dir, study.config, number, options.mode).exists():
+        if place not in with_result:
             left.append(place)
             continue
         scenario = study[place]
@@ -90,6 +90,19 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
             file=sys.stderr,
         )
     return left
+
+
+def _with_result(study: "Study", options: RunOptions) -> list[int]:
+    """Return the positions in `study` of runs that have a result in the directory or in its packs."""
+    from gradysim.results.files import run_file
+    from gradysim.results.result_dir import result_names
+
+    names = result_names(options.directory)
+    return [
+        place
+        for place, number in enumerate(study.numbers)
+        if run_file(Path(), study.config, number, options.mode).name in names
+    ]
 
 
 def is_done(scenario: "Scenario", options: RunOptions) -> bool:

@@ -1,5 +1,6 @@
 """Writes packs: the result files of a directory into one file, and back."""
 
+import contextlib
 import errno
 import json
 import os
@@ -69,8 +70,7 @@ def pack(directory: Path, file: Path, *, remove: bool = False) -> int:
             for name, state in loose.items():
                 if packed.get(name) == state:
                     (directory / name).unlink()
-            for other in others:
-                other.unlink()
+            _remove(others)
     return added
 
 
@@ -97,9 +97,16 @@ def unpack(directory: Path, packs: Iterable[Path], *, remove: bool = False) -> i
         if remove:
             if hasattr(os, "sync"):
                 os.sync()  # once: a sync of each file takes milliseconds
-            for each in packs:
-                each.unlink()
+            _remove(packs)
     return count
+
+
+def _remove(packs: Iterable[Path]) -> None:
+    for each in packs:
+        each.unlink()
+        with contextlib.suppress(OSError):  # it has other packs
+            if each.parent.name == PACKS:
+                each.parent.rmdir()
 
 
 def _newest(several: Iterable[Mapping[str, PackedFile]]) -> dict[str, PackedFile]:
