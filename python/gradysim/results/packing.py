@@ -25,7 +25,7 @@ from gradysim.results.pack import (
     packs_of,
 )
 from gradysim.results.result_dir import loose_files, result_of
-from gradysim.results.run_lock import all_runs_locked
+from gradysim.results.run_lock import all_runs_locked, remove_left_over_files
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.sweep import text_of_iterations
 
@@ -58,6 +58,7 @@ def pack(directory: Path, file: Path, *, remove: bool = False) -> int:
         ConfigError: A result file is damaged.
         OSError: A file cannot be read or written.
     """
+    remove_left_over_files(directory)
     with all_runs_locked(directory):
         known = packed_files(file) if file.exists() else {}
         loose = loose_files(directory)
