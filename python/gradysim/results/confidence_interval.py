@@ -37,10 +37,14 @@ def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
 
 
 def _standard_deviation(values: Sequence[float]) -> float:
-    """Return that of a sample. Equal values have exactly 0."""
-    from_first = [value - values[0] for value in values]
-    mean = mean_of(from_first)
-    return math.hypot(*[value - mean for value in from_first]) / math.sqrt(len(values) - 1)
+    """Return that of a sample, the same in any order of the values. Equal values have exactly 0."""
+    low, high = min(values), max(values)
+    width = high - low
+    if not width:
+        return 0.0
+    scaled = [(value - low) / width for value in values]  # so that squares do not overflow
+    mean = mean_of(scaled)
+    return width * math.sqrt(math.fsum([(value - mean) ** 2 for value in scaled]) / (len(values) - 1))
 
 
 @cache

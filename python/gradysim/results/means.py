@@ -14,6 +14,7 @@ from gradysim.results.files import read_run_file
 from gradysim.results.quantity import Names, name_filter
 from gradysim.results.result_dir import read_results
 from gradysim.results.run_summary import RunSummary
+from gradysim.results.tracked_variables import REASONS
 
 _Name = TypeVar("_Name")
 
@@ -62,36 +63,52 @@ def means(results: Iterable[RunSummary], quantities: Names | None = None) -> lis
     found: list[Mean] = []
     fits = name_filter(quantities)
     for study in _by(results, lambda result: (result.config, result.mode)):
-        variables = [each for each in _union(run.variables for run in study) if fits(" ".join(each))]
-        unlisted = () if quantities is not None else _union(run.unlisted for run in study)
-        hidden_at_zero = _union(run.hidden_at_zero for run in study)
+        study_blocks = _blocks(study)
+        conditions = [block[0].conditions for block in study_blocks]
+        variables = [each for each in _union(each.variables for each in conditions) if fits(" ".join(each))]
+        unlisted = () if quantities is not None else _union(each.unlisted for each in conditions)
+        hidden_at_zero = _union(each.hidden_at_zero for each in conditions)
         shown = [
             name
-            for name in _union(run.averages for run in study)
+            for name in _union(each.averages for each in conditions)
             if fits(name)
             and name not in unlisted
-            and (name not in hidden_at_zero or any(run.numbers.get(name) for run in study))
+            and (name not in hidden_at_zero or any(_values(study_blocks, name)))
         ]
-        for alike in _by(study, lambda result: result.values):
+        for alike in _by(study, lambda result: result.conditions.values):
+            blocks = _blocks(alike)
             for group, name in variables:
-                found += _mean_of_variable(alike, group, name)
+                found += _mean_of_variable(blocks, group, name)
             for name in shown:
-                if values := [run.numbers[name] for run in alike if name in run.numbers]:
+                if values := _values(blocks, name):
                     found.append(_mean(alike[0], name, values))
     return found
 
 
 def _union(several: Iterable[Iterable[_Name]]) -> dict[_Name, None]:
-    """Return the names in several objects, in order. Most runs of a pack share one object."""
-    shared = {id(names): names for names in list(several)}
-    return dict.fromkeys(name for names in shared.values() for name in names)
+    return dict.fromkeys(name for names in several for name in names)
+
+
+def _blocks(runs: Iterable[RunSummary]) -> list[list[RunSummary]]:
+    """Return runs in lists of which all have the same conditions as one object."""
+    return _by(runs, lambda run: id(run.conditions))
+
+
+def _values(blocks: Iterable[Sequence[RunSummary]], quantity: str) -> list[float]:
+    """Return the numbers of a quantity, of the runs that have one."""
+    values: list[float] = []
+    for block in blocks:
+        position = block[0].conditions.positions.get(quantity)
+        if position is not None:
+            values += [run.row[position] for run in block]
+    return values
 
 
 def of_different_settings(results: Iterable[RunSummary]) -> tuple[str, str] | None:
     """Return the names of two runs with equal values of variables but different settings, if any."""
     first: dict[str, RunSummary] = {}
-    for result in results:
-        other = first.setdefault(result.values, result)
+    for result in (block[0] for block in _blocks(results)):
+        other = first.setdefault(result.conditions.values, result)
         if other.settings_hash != result.settings_hash:
             return other.name, result.name
     return None
@@ -104,9 +121,9 @@ def repeated(results: Iterable[RunSummary]) -> list[tuple[str, str]]:
     """
     first: dict[object, RunSummary] = {}
     found = []
-    for alike in _by(results, lambda result: (result.values, result.seed)):
+    for alike in _by(results, lambda result: (result.conditions.values, result.seed)):
         for result in alike if len(alike) > 1 else ():
-            same = (result.values, result.seed, result.settings_hash, _computed(result))
+            same = (result.conditions.values, result.seed, result.settings_hash, _computed(result))
             other = first.setdefault(same, result)
             if other is not result:
                 found.append((other.name, result.name))
@@ -126,8 +143,8 @@ def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | 
     The values of their variables may differ, since such runs are compared with each other.
     """
     first: dict[tuple[str, str], tuple[str, RunSummary]] = {}
-    for result in results:
-        for name, file_hash in result.file_hashes.items():
+    for result in (block[0] for block in _blocks(results)):
+        for name, file_hash in result.conditions.file_hashes.items():
             known, other = first.setdefault((result.config, name), (file_hash, result))
             if known != file_hash:
                 one, another = (f"{each.name}.{each.mode}" for each in (other, result))
@@ -143,24 +160,23 @@ def _by(results: Iterable[RunSummary], key: Callable[[RunSummary], object]) -> l
     return list(groups.values())
 
 
-def _mean_of_variable(runs: Sequence[RunSummary], group: str, name: str) -> Iterator[Mean]:
+def _mean_of_variable(blocks: Sequence[Sequence[RunSummary]], group: str, name: str) -> Iterator[Mean]:
     quantity = f"{group} {name}"
-    of_runs: list[float] = []
     left_out: Counter[str] = Counter()
-    nodes = 0
-    for run in runs:
-        node_count = run.groups.get(group, 0)
-        nodes += node_count
-        number = run.numbers.get(quantity)
-        if number is not None:
-            of_runs.append(number)
-        if quantity in run.left_out:
-            left_out.update(run.left_out[quantity])
-        elif number is None and node_count:
-            left_out["missing"] += node_count
-    if nodes:
-        text = ", ".join(f"{count} {what}" for what, count in left_out.items())
-        yield _mean(runs[0], quantity, of_runs, f"{text} of {nodes}" if text else "")
+    node_count = 0
+    for block in blocks:
+        conditions = block[0].conditions
+        in_group = conditions.groups.get(group, 0)
+        node_count += in_group * len(block)
+        others = [run.left_out[quantity] for run in block if quantity in run.left_out]
+        for each in others:
+            left_out.update(each)
+        if quantity not in conditions.positions and len(others) < len(block) and in_group:
+            left_out["missing"] += in_group * (len(block) - len(others))
+    if node_count:
+        text = ", ".join(f"{left_out[what]} {what}" for what in REASONS if left_out[what])
+        values = _values(blocks, quantity)
+        yield _mean(blocks[0][0], quantity, values, f"{text} of {node_count}" if text else "")
 
 
 def _mean(result: RunSummary, quantity: str, values: Sequence[float], left_out: str = "") -> Mean:

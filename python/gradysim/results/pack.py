@@ -9,15 +9,14 @@ while it is read.
 import contextlib
 import errno
 import json
-import os
-import struct
 import zlib
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from struct import Struct
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from gradysim.results.run_summary import RunSummary
+from gradysim.results.run_summary import Conditions, RunSummary
 
 if TYPE_CHECKING:
     import sqlite3
@@ -28,7 +27,11 @@ PACKS = "packs"
 DEFAULT_NAME = "runs.sca"
 
 TABLES: Mapping[str, Mapping[str, str]] = {
-    "packedConditions": {"conditionsId": "INTEGER PRIMARY KEY", "conditions": "TEXT NOT NULL UNIQUE"},
+    "packedConditions": {
+        "conditionsId": "INTEGER PRIMARY KEY",
+        "layout": "TEXT NOT NULL",
+        "conditions": "TEXT NOT NULL",
+    },
     "packedRun": {
         "runId": "INTEGER PRIMARY KEY REFERENCES run(runId) ON DELETE CASCADE",
         "fileName": "BLOB NOT NULL UNIQUE",
@@ -54,12 +57,8 @@ TABLES: Mapping[str, Mapping[str, str]] = {
 }
 """{table: {column: its type}}, in addition to those of OMNeT++."""
 
-_OWN = {"run", "seed", "numbers", "left_out", "directory", "file_name"}
-"""Fields of a `RunSummary` that are not in its conditions."""
 
-
-@dataclass(frozen=True)
-class PackedFile:
+class PackedFile(NamedTuple):
     """State of a result file when it was packed.
 
     Attributes:
@@ -85,7 +84,7 @@ def packed_files(pack: Path) -> dict[str, PackedFile]:
     """Return the result files in a pack by name. Raises OSError."""
     with opened(pack) as connection:
         rows = connection.execute("SELECT fileName, fileSize, fileTimeNs FROM packedRun")
-        return {os.fsdecode(name): PackedFile(size, time_ns) for name, size, time_ns in rows}
+        return {name_of(name): PackedFile(size, time_ns) for name, size, time_ns in rows}
 
 
 def packed_bytes(file: Path) -> bytes | None:
@@ -100,7 +99,7 @@ def packed_bytes(file: Path) -> bytes | None:
                 "SELECT fileTimeNs, unpacked(packedText.text, packedDictionary.text) FROM packedRun"
                 " JOIN packedText USING (runId) JOIN packedDictionary USING (dictionaryId)"
                 " WHERE fileName = ?",
-                (os.fsencode(file.name),),
+                (stored_name(file.name),),
             )
     return max(found)[1] if found else None
 
@@ -114,7 +113,7 @@ def packed_texts(pack: Path) -> Iterator[tuple[str, PackedFile, bytes]]:
             " ORDER BY runId"
         )
         for name, size, time_ns, text in rows:
-            yield os.fsdecode(name), PackedFile(size, time_ns), text
+            yield name_of(name), PackedFile(size, time_ns), text
 
 
 def packed_summaries(pack: Path, directory: Path) -> Iterator[tuple[PackedFile, RunSummary, bool]]:
@@ -123,64 +122,50 @@ def packed_summaries(pack: Path, directory: Path) -> Iterator[tuple[PackedFile, 
     `directory` is that of the summaries. Raises OSError.
     """
     with opened(pack) as connection:
-        conditions = {
-            key: _Conditions(text)
-            for key, text in connection.execute("SELECT conditionsId, conditions FROM packedConditions")
+        known = {
+            key: (_conditions(text), Struct(layout).unpack)
+            for key, layout, text in connection.execute("SELECT * FROM packedConditions")
         }
         rows = connection.execute(
             "SELECT conditionsId, fileName, fileSize, fileTimeNs, interrupted, run, seed, numbers, leftOut"
             " FROM packedRun ORDER BY runId"
         )
         for key, name, size, time_ns, interrupted, run, seed, numbers, left_out in rows:
-            shared = conditions[key]
-            summary = RunSummary(
-                **shared.fields,
-                run=run,
-                seed=seed,
-                numbers=dict(zip(shared.quantities, shared.layout.unpack(numbers), strict=True)),
-                left_out=json.loads(left_out) if left_out else {},
-                directory=directory,
-                file_name=os.fsdecode(name),
-            )
+            conditions, row_of = known[key]
+            others = json.loads(left_out) if left_out else {}
+            summary = RunSummary(conditions, run, seed, row_of(numbers), others, directory, name_of(name))
             yield PackedFile(size, time_ns), summary, bool(interrupted)
 
 
-class _Conditions:
-    """What many runs of a pack share: the other fields of a `RunSummary`.
-
-    Attributes:
-        fields: Their values.
-        quantities: Names of the numbers of a run.
-        layout: Of these numbers as bytes.
-    """
-
-    def __init__(self, text: str) -> None:
-        found: dict[str, Any] = json.loads(text)
-        self.quantities: list[str] = found.pop("quantities")
-        self.layout = struct.Struct(found.pop("layout"))
-        self.fields = {
-            **found,
-            "variables": tuple(map(tuple, found["variables"])),
-            "averages": tuple(found["averages"]),
-            "hidden_at_zero": frozenset(found["hidden_at_zero"]),
-            "unlisted": frozenset(found["unlisted"]),
-        }
-
-
-def conditions_of(summary: RunSummary) -> tuple[str, bytes]:
-    """Return what a run shares with others, as a JSON object, and its numbers."""
-    shared = {
-        each.name: sorted(value) if isinstance(value := getattr(summary, each.name), frozenset) else value
-        for each in fields(summary)
-        if each.name not in _OWN
+def conditions_of(summary: RunSummary) -> tuple[str, str, bytes]:
+    """Return the layout of the numbers of a run, its conditions as a JSON object, and its numbers."""
+    layout = "<" + "".join("q" if _is_integer(number) else "d" for number in summary.row)
+    plain = {
+        name: sorted(value) if isinstance(value, frozenset) else value
+        for name, value in asdict(summary.conditions).items()
     }
-    layout = "<" + "".join("q" if _is_integer(number) else "d" for number in summary.numbers.values())
-    text = json.dumps({**shared, "quantities": list(summary.numbers), "layout": layout})
-    return text, struct.pack(layout, *summary.numbers.values())
+    return layout, json.dumps(plain), Struct(layout).pack(*summary.row)
+
+
+def _conditions(text: str) -> Conditions:
+    plain: dict[str, Any] = json.loads(text)
+    names = {name: tuple(plain[name]) for name in ("averages", "quantities")}
+    sets = {name: frozenset(plain[name]) for name in ("hidden_at_zero", "unlisted")}
+    return Conditions(**{**plain, **names, **sets, "variables": tuple(map(tuple, plain["variables"]))})
 
 
 def _is_integer(number: float) -> bool:
     return isinstance(number, int) and -(2**63) <= number < 2**63
+
+
+def stored_name(name: str) -> bytes:
+    """Return the name of a file as packs have it: names in Linux need not be UTF-8."""
+    return name.encode(errors="surrogateescape")
+
+
+def name_of(stored: bytes) -> str:
+    """Return the name of a file in a pack."""
+    return stored.decode(errors="surrogateescape")
 
 
 class Compressor:

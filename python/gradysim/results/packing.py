@@ -20,9 +20,11 @@ from gradysim.results.pack import (
     Compressor,
     PackedFile,
     conditions_of,
+    name_of,
     packed_files,
     packed_texts,
     packs_of,
+    stored_name,
 )
 from gradysim.results.result_dir import loose_files, result_of
 from gradysim.results.run_lock import all_runs_locked, remove_left_over_files
@@ -167,8 +169,8 @@ class _Writer:
         connection.execute("BEGIN")
         if not connection.execute("SELECT 1 FROM sqlite_schema LIMIT 1").fetchall():
             create_tables(connection, {**OMNETPP_TABLES, **TABLES})
-        query = connection.execute("SELECT conditions, conditionsId FROM packedConditions")
-        self._conditions: dict[str, int] = dict(query)
+        query = connection.execute("SELECT * FROM packedConditions")
+        self._conditions = {(layout, conditions): key for key, layout, conditions in query}
         query = connection.execute("SELECT study, dictionaryId, text FROM packedDictionary")
         self._compressors = {study: (key, Compressor(text)) for study, key, text in query}
 
@@ -180,7 +182,7 @@ class _Writer:
         next_id = max(known.values(), default=0) + 1
         count = 0
         for (name, state, content), result in results:
-            file_name = os.fsencode(name)
+            file_name = stored_name(name)
             if file_name in known:
                 self._connection.execute("DELETE FROM packedRun WHERE fileName = ?", (file_name,))
                 replaced.append(known[file_name])
@@ -204,15 +206,15 @@ class _Writer:
             "scalar (runId, moduleName, scalarName, scalarValue)",
             [(run_id, _MODULE, storable(name), value) for name, value in summary.numbers.items()],
         )
-        conditions, numbers = conditions_of(summary)
-        key = self._conditions.get(conditions)
+        layout, conditions, numbers = conditions_of(summary)
+        key = self._conditions.get((layout, conditions))
         if key is None:
-            key = self._conditions[conditions] = len(self._conditions) + 1
-            self._insert("packedConditions", [(key, conditions)])
+            key = self._conditions[layout, conditions] = len(self._conditions) + 1
+            self._insert("packedConditions", [(key, layout, conditions)])
         left_out = json.dumps(summary.left_out) if summary.left_out else None
         row = (key, result["interrupted"], summary.run, summary.seed, numbers, left_out)
         self._insert("packedRun", [(run_id, file_name, state.size, state.time_ns, *row)])
-        dictionary, compressor = self._compressor(f"{summary.config} {summary.mode}", content)
+        dictionary, compressor = self._compressor(f"{result['config']} {result['mode']}", content)
         self._insert("packedText", [(run_id, dictionary, compressor.packed(content))])
 
     def _compressor(self, study: str, content: bytes) -> tuple[int, Compressor]:
@@ -247,4 +249,4 @@ def _identity_of(file_name: bytes, result: Mapping[str, Any]) -> RunIdentity:
         "settings_hash": str(result.get("settings_hash", "")),
     }
     named = {name: text for name, text in iterations.items() if not name.isdigit()}
-    return RunIdentity(os.fsdecode(file_name).removesuffix(".json"), attributes, named, ())
+    return RunIdentity(storable(name_of(file_name)).removesuffix(".json"), attributes, named, ())

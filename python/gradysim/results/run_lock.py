@@ -70,7 +70,7 @@ def all_runs_locked(directory: Path) -> Iterator[None]:
 
 
 def remove_left_over_files(directory: Path) -> None:
-    """Remove unfinished files, also of packs, and the lock file, unless a run is computed in the directory."""
+    """Remove unfinished files and packs, and the lock file, unless a run is computed in the directory."""
     try:
         left_over = [*_unfinished_files(directory), *_unfinished_files(directory / PACKS)]
         if left_over or (directory / LOCK_FILE).exists():

@@ -4,6 +4,7 @@ import json
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -13,20 +14,16 @@ from gradysim.results.tracked_variables import tracked_by_group, variables_of_gr
 
 
 @dataclass(frozen=True)
-class RunSummary:
-    """Summary of one run. A result file has all its nodes, and a study many result files.
+class Conditions:
+    """What repetitions of a run have in common. The runs of a pack share one object.
 
     Attributes:
-        values: Key of the runs that are averaged: configuration, mode and iteration variables.
         groups: Number of nodes by group.
         variables: (group, name) of tracked variables that are a number at any node, including infinity.
         averages: Names of the other quantities.
         hidden_at_zero: Those that have no row if they are 0 in all runs.
         unlisted: Those that have a row only if they are named.
-        numbers: Numbers of the run by quantity. For a tracked variable: the mean of a group, if it has one.
-        left_out: Nodes by quantity and reason whose value of a tracked variable is not a finite number.
-        directory: Directory of the result file, or the pack that it was read from.
-        file_name: Name of the result file.
+        quantities: Names of the numbers of a run.
     """
 
     config: str
@@ -34,15 +31,40 @@ class RunSummary:
     iterations: Mapping[str, object]
     settings_hash: object
     file_hashes: Mapping[str, str]
-    values: str
     groups: Mapping[str, int]
     variables: tuple[tuple[str, str], ...]
     averages: tuple[str, ...]
     hidden_at_zero: frozenset[str]
     unlisted: frozenset[str]
+    quantities: tuple[str, ...]
+
+    @cached_property
+    def values(self) -> str:
+        """Key of the runs that are averaged."""
+        return json.dumps([self.config, self.mode, self.iterations], sort_keys=True)
+
+    @cached_property
+    def positions(self) -> Mapping[str, int]:
+        """Position of each quantity in `row`."""
+        return {quantity: position for position, quantity in enumerate(self.quantities)}
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """Summary of one run. A result file has all its nodes, and a study many result files.
+
+    Attributes:
+        row: Numbers of the run, one for each of `conditions.quantities`. For a tracked variable: the mean of
+            a group, if it has one.
+        left_out: Nodes by quantity and reason whose value of a tracked variable is not a finite number.
+        directory: Directory of the result file, or the pack that it was read from.
+        file_name: Name of the result file.
+    """
+
+    conditions: Conditions
     run: int
     seed: object
-    numbers: Mapping[str, float]
+    row: tuple[float, ...]
     left_out: Mapping[str, Mapping[str, int]]
     directory: Path
     file_name: str
@@ -64,28 +86,53 @@ class RunSummary:
                     left_out[quantity] = variable.others
                 if variable.is_numeric:
                     variables.append((group, name))
-        averages = tuple(averages_of(RunResult, result))
+        averages = list(averages_of(RunResult, result))
         numbers.update((average.name, average.value) for average in averages)
-        config, mode, iterations = result["config"], result["mode"], result["iterations"]
-        return cls(
-            config=config,
-            mode=mode,
-            iterations=iterations,
+        conditions = Conditions(
+            config=result["config"],
+            mode=result["mode"],
+            iterations=result["iterations"],
             settings_hash=result.get("settings_hash"),
             file_hashes=hashes if isinstance(hashes, dict) else {},
-            values=json.dumps([config, mode, iterations], sort_keys=True),
             groups={group: len(nodes) for group, nodes in groups.items()},
             variables=tuple(variables),
             averages=tuple(average.name for average in averages),
             hidden_at_zero=frozenset(each.name for each in averages if not each.shown_at_zero),
             unlisted=frozenset(each.name for each in averages if not each.listed),
-            run=result["run"],
-            seed=result.get("seed"),
-            numbers=numbers,
-            left_out=left_out,
-            directory=file.parent,
-            file_name=file.name,
+            quantities=tuple(numbers),
         )
+        seed, row = result.get("seed"), tuple(numbers.values())
+        return cls(conditions, result["run"], seed, row, left_out, file.parent, file.name)
+
+    @property
+    def config(self) -> str:
+        """Name of the configuration."""
+        return self.conditions.config
+
+    @property
+    def mode(self) -> str:
+        """Mode of the run."""
+        return self.conditions.mode
+
+    @property
+    def iterations(self) -> Mapping[str, object]:
+        """Value of each iteration variable."""
+        return self.conditions.iterations
+
+    @property
+    def settings_hash(self) -> object:
+        """Hash of its settings."""
+        return self.conditions.settings_hash
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """Numbers of the run by quantity. For a tracked variable: the mean of a group, if it has one."""
+        return dict(zip(self.conditions.quantities, self.row, strict=True))
+
+    def number(self, quantity: str) -> float | None:
+        """Return a number of the run, if it has that quantity."""
+        position = self.conditions.positions.get(quantity)
+        return None if position is None else self.row[position]
 
     @property
     def file(self) -> Path:
@@ -101,8 +148,9 @@ class RunSummary:
 def in_order(summaries: Iterable[RunSummary]) -> list[RunSummary]:
     """Return summaries sorted by configuration, mode and run. `Field5` comes before `Field15`."""
     summaries = list(summaries)
-    configs = {config: _natural(config) for config in {summary.config for summary in summaries}}
-    return sorted(summaries, key=lambda summary: (*configs[summary.config], summary.mode, summary.run))
+    configs = sorted({summary.config for summary in summaries}, key=_natural)
+    ranks = {config: rank for rank, config in enumerate(configs)}
+    return sorted(summaries, key=lambda summary: (ranks[summary.config], summary.mode, summary.run))
 
 
 def _natural(name: str) -> tuple[list[str], list[int]]:

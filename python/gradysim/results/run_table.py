@@ -67,7 +67,8 @@ class Runs:
     @property
     def quantities(self) -> list[str]:
         """Names of the numbers of any run: those of `gradysim means`, then `cpu_s`, `events` and so on."""
-        return list(dict.fromkeys(name for run in self for name in run.numbers))
+        conditions = {id(run.conditions): run.conditions for run in self}.values()
+        return list(dict.fromkeys(name for each in conditions for name in each.quantities))
 
     def values(self, variable: str) -> list[Any]:
         """Return the different values of a variable, in the order of the runs.
@@ -161,7 +162,7 @@ class Runs:
         _check(names, known)
         chosen = list(filter(name_filter(names), known))
         for run in self:
-            yield run, {name: run.numbers.get(name) for name in chosen}
+            yield run, {name: run.number(name) for name in chosen}
 
     def _node_rows(self, names: Names | None) -> Iterator[tuple[RunSummary, Mapping[str, Any]]]:
         found = [(run, node) for run in self for node in nodes_of(run)]

@@ -16,6 +16,9 @@ Tracked = Mapping[str, Any]
 """{name: value} at one node, as JSON objects have them."""
 
 
+REASONS = ("nan or None", "inf", "-inf", "too large", "no number", "missing")
+"""What a variable is at a node if it is not a finite number. JSON objects do not distinguish NaN and None."""
+
 _NUMBERS = {"inf", "-inf", "too large"}
 """Numbers that have no part in a mean."""
 
@@ -70,8 +73,7 @@ def group_of(node: str) -> str:
 def numbers_and_others(nodes: Iterable[Tracked], name: str) -> tuple[list[float], list[str]]:
     """Return the finite numbers of the variable `name` at `nodes`, and what it is at the others.
 
-    That is "inf", "-inf", "nan or None" (JSON objects do not distinguish these two), "too large" for a float,
-    "no number", or "missing" where a node does not have the variable.
+    These are `REASONS`: "too large" is too large for a float, and "missing" a node without the variable.
     """
     numbers: list[float] = []
     others: list[str] = []

@@ -22,7 +22,7 @@ def summary_of(*tracked: dict[str, Any], **changes: Any) -> RunSummary:
 
 def test_of_a_variable_its_mean_is_kept_and_what_is_no_number() -> None:
     summary = summary_of({"x": 1}, {"x": 4}, {"x": "inf"}, {"y": None})
-    assert summary.groups == {"uavs[*]": 4}
+    assert summary.conditions.groups == {"uavs[*]": 4}
     assert summary.numbers == {"uavs[*] x": 2.5}
     assert summary.left_out == {
         "uavs[*] x": {"inf": 1, "missing": 1},
@@ -34,7 +34,7 @@ def test_of_a_variable_its_mean_is_kept_and_what_is_no_number() -> None:
 def test_a_variable_is_numeric_if_it_is_a_number_at_one_node(
     value: object, variables: tuple[Any, ...]
 ) -> None:
-    assert summary_of({"x": None}, {"x": value}).variables == variables
+    assert summary_of({"x": None}, {"x": value}).conditions.variables == variables
 
 
 def test_a_run_of_many_nodes_takes_no_more_memory() -> None:
