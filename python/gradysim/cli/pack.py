@@ -48,6 +48,10 @@ def pack_results(
         return LOCKED
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
-    runs = f"{count:,} run{'' if count == 1 else 's'}"
-    print(f"{runs} unpacked into {directory}" if unpack else f"{runs} packed into {file}")
+    runs = "run" if count == 1 else "runs"
+    if unpack:
+        print(f"unpacked {count:,} {runs} into {directory}{', and removed the packs' if remove else ''}")
+    else:
+        removed = ", and removed packed JSON files" if remove else ""
+        print(f"packed {count:,} new {runs} into {file}{removed}")
     return OK

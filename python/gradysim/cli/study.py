@@ -15,6 +15,7 @@ def read_study(directory: Path) -> "Runs":
 
     Raises ConfigError and OSError.
     """
+    from gradysim.encapsulator.run_context import gc_paused
     from gradysim.results.result_dir import has_files_for_omnetpp_alone
     from gradysim.results.run_table import runs
     from gradysim.scenario.errors import ConfigError
@@ -23,7 +24,8 @@ def read_study(directory: Path) -> "Runs":
         raise ConfigError(
             f"{directory}: there is no such directory; expected that of `gradysim run FILE --result-dir DIR`"
         )
-    found = runs(directory)
+    with gc_paused():  # summaries are no garbage
+        found = runs(directory)
     if not len(found):
         reason = "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
         raise ConfigError(

@@ -160,7 +160,7 @@ def _write(file: Path, contents: Iterable[Content], directory: Path) -> int:
 
 
 class _Writer:
-    """Adds result files to a pack that nobody else has opened."""
+    """Adds result files to a pack that no other process has opened."""
 
     def __init__(self, connection: "sqlite3.Connection") -> None:
         self._connection = connection
