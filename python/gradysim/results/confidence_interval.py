@@ -11,9 +11,6 @@ CONFIDENCE = 0.95
 _LARGEST = 1000.0
 """Upper bound of all quantiles. The quantile of one degree of freedom is 12.7."""
 
-_HUGE, _SMALLER = 2.0**900, 2.0**-100
-"""Above `_HUGE`, deviations may overflow a float; such values are scaled by `_SMALLER`."""
-
 
 def mean_of(values: Sequence[float]) -> float:
     """Return the mean of finite numbers, even if their sum overflows a float."""
@@ -31,20 +28,16 @@ def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
     """
     if len(values) < 2:
         return mean_of(values), None
-    scale = _SMALLER if max(map(abs, values)) > _HUGE else 1.0
-    deviation = _standard_deviation([value * scale for value in values])
-    return mean_of(values), _quantile(len(values) - 1) * deviation / math.sqrt(len(values)) / scale
-
-
-def _standard_deviation(values: Sequence[float]) -> float:
-    """Return that of a sample, the same in any order of the values. Equal values have exactly 0."""
-    low, high = min(values), max(values)
-    width = high - low
-    if not width:
-        return 0.0
-    scaled = [(value - low) / width for value in values]  # so that squares do not overflow
-    mean = mean_of(scaled)
-    return width * math.sqrt(math.fsum([(value - mean) ** 2 for value in scaled]) / (len(values) - 1))
+    # Relative to the smallest and largest value squares do not overflow. Halves do not, either.
+    low, half_range = min(values) / 2, max(values) / 2 - min(values) / 2
+    if half_range == 0:
+        return mean_of(values), 0.0
+    relative = [(value / 2 - low) / half_range for value in values]
+    mean = mean_of(relative)
+    # A sum of `fsum` is the same in any order of the values.
+    variance = math.fsum([(value - mean) ** 2 for value in relative]) / (len(values) - 1)
+    half_width = _quantile(len(values) - 1) * math.sqrt(variance / len(values)) * half_range
+    return mean_of(values), 2 * half_width
 
 
 @cache

@@ -75,6 +75,9 @@ def _has_settings_of(scenario: Scenario, result: Mapping[str, Any]) -> bool:
 
 def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable[Path]) -> bool:
     """Return whether all these files are complete, and belong to the run whose result is in `directory`."""
+    files = list(files)
+    if not files:
+        return True
     known = _read(run_file(directory, scenario.config, scenario.run_number, mode)).get("output_hashes")
     hashes = known if isinstance(known, dict) else {}
     return all((found := hash_of(file)) and hashes.get(file.name) == found for file in files)

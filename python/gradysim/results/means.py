@@ -6,6 +6,8 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from typing import TypeVar
 
@@ -13,10 +15,10 @@ from gradysim.results.confidence_interval import mean_with_half_width
 from gradysim.results.files import read_run_file
 from gradysim.results.quantity import Names, name_filter
 from gradysim.results.result_dir import read_results
-from gradysim.results.run_summary import RunSummary
+from gradysim.results.run_summary import Conditions, RunSummary
 from gradysim.results.tracked_variables import REASONS
 
-_Name = TypeVar("_Name")
+_Item = TypeVar("_Item")
 
 
 @dataclass(frozen=True)
@@ -62,52 +64,62 @@ def means(results: Iterable[RunSummary], quantities: Names | None = None) -> lis
     """
     found: list[Mean] = []
     fits = name_filter(quantities)
-    for study in _by(results, lambda result: (result.config, result.mode)):
-        study_blocks = _blocks(study)
-        conditions = [block[0].conditions for block in study_blocks]
-        variables = [each for each in _union(each.variables for each in conditions) if fits(" ".join(each))]
-        unlisted = () if quantities is not None else _union(each.unlisted for each in conditions)
-        hidden_at_zero = _union(each.hidden_at_zero for each in conditions)
+    for study in _by(_blocks(results), lambda block: (block.conditions.config, block.conditions.mode)):
+        variables = [
+            each for each in _union(block.conditions.variables for block in study) if fits(" ".join(each))
+        ]
+        unlisted = () if quantities is not None else _union(block.conditions.unlisted for block in study)
+        hidden_at_zero = _union(block.conditions.hidden_at_zero for block in study)
         shown = [
             name
-            for name in _union(each.averages for each in conditions)
+            for name in _union(block.conditions.averages for block in study)
             if fits(name)
             and name not in unlisted
-            and (name not in hidden_at_zero or any(_values(study_blocks, name)))
+            and (name not in hidden_at_zero or any(_values(study, name)))
         ]
-        for alike in _by(study, lambda result: result.conditions.values):
-            blocks = _blocks(alike)
+        for alike in _by(study, lambda block: block.conditions.values):
             for group, name in variables:
-                found += _mean_of_variable(blocks, group, name)
+                found += _mean_of_variable(alike, group, name)
             for name in shown:
-                if values := _values(blocks, name):
-                    found.append(_mean(alike[0], name, values))
+                if values := _values(alike, name):
+                    found.append(_mean(alike, name, values))
     return found
 
 
-def _union(several: Iterable[Iterable[_Name]]) -> dict[_Name, None]:
-    return dict.fromkeys(name for names in several for name in names)
+@dataclass(frozen=True)
+class _Block:
+    """Runs of which all have the same conditions, as one object."""
+
+    runs: Sequence[RunSummary]
+
+    @property
+    def conditions(self) -> Conditions:
+        return self.runs[0].conditions
+
+    @cached_property
+    def columns(self) -> Mapping[str, Sequence[float]]:
+        """Numbers of the runs by quantity."""
+        columns = zip(*[run.row for run in self.runs], strict=True)
+        return dict(zip(self.conditions.quantities, columns, strict=True))
 
 
-def _blocks(runs: Iterable[RunSummary]) -> list[list[RunSummary]]:
-    """Return runs in lists of which all have the same conditions as one object."""
-    return _by(runs, lambda run: id(run.conditions))
+def _blocks(runs: Iterable[RunSummary]) -> list[_Block]:
+    return [_Block(alike) for alike in _by(runs, lambda run: id(run.conditions))]
 
 
-def _values(blocks: Iterable[Sequence[RunSummary]], quantity: str) -> list[float]:
+def _union(several: Iterable[Iterable[_Item]]) -> dict[_Item, None]:
+    return dict.fromkeys(item for items in several for item in items)
+
+
+def _values(blocks: Iterable[_Block], quantity: str) -> list[float]:
     """Return the numbers of a quantity, of the runs that have one."""
-    values: list[float] = []
-    for block in blocks:
-        position = block[0].conditions.positions.get(quantity)
-        if position is not None:
-            values += [run.row[position] for run in block]
-    return values
+    return list(chain.from_iterable(block.columns.get(quantity, ()) for block in blocks))
 
 
 def of_different_settings(results: Iterable[RunSummary]) -> tuple[str, str] | None:
     """Return the names of two runs with equal values of variables but different settings, if any."""
     first: dict[str, RunSummary] = {}
-    for result in (block[0] for block in _blocks(results)):
+    for result in (block.runs[0] for block in _blocks(results)):
         other = first.setdefault(result.conditions.values, result)
         if other.settings_hash != result.settings_hash:
             return other.name, result.name
@@ -143,7 +155,7 @@ def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | 
     The values of their variables may differ, since such runs are compared with each other.
     """
     first: dict[tuple[str, str], tuple[str, RunSummary]] = {}
-    for result in (block[0] for block in _blocks(results)):
+    for result in (block.runs[0] for block in _blocks(results)):
         for name, file_hash in result.conditions.file_hashes.items():
             known, other = first.setdefault((result.config, name), (file_hash, result))
             if known != file_hash:
@@ -152,39 +164,39 @@ def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | 
     return None
 
 
-def _by(results: Iterable[RunSummary], key: Callable[[RunSummary], object]) -> list[list[RunSummary]]:
-    """Return the results in groups of equal keys."""
-    groups: dict[object, list[RunSummary]] = {}
-    for result in results:
-        groups.setdefault(key(result), []).append(result)
+def _by(items: Iterable[_Item], key: Callable[[_Item], object]) -> list[list[_Item]]:
+    """Return items in groups of equal keys."""
+    groups: dict[object, list[_Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
     return list(groups.values())
 
 
-def _mean_of_variable(blocks: Sequence[Sequence[RunSummary]], group: str, name: str) -> Iterator[Mean]:
+def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str) -> Iterator[Mean]:
     quantity = f"{group} {name}"
     left_out: Counter[str] = Counter()
     node_count = 0
     for block in blocks:
-        conditions = block[0].conditions
-        in_group = conditions.groups.get(group, 0)
-        node_count += in_group * len(block)
-        others = [run.left_out[quantity] for run in block if quantity in run.left_out]
+        in_group = block.conditions.groups.get(group, 0)
+        node_count += in_group * len(block.runs)
+        others = [run.left_out[quantity] for run in block.runs if quantity in run.left_out]
         for each in others:
             left_out.update(each)
-        if quantity not in conditions.positions and len(others) < len(block) and in_group:
-            left_out["missing"] += in_group * (len(block) - len(others))
+        if quantity not in block.columns:
+            left_out["missing"] += in_group * (len(block.runs) - len(others))
     if node_count:
         text = ", ".join(f"{left_out[what]} {what}" for what in REASONS if left_out[what])
         values = _values(blocks, quantity)
-        yield _mean(blocks[0][0], quantity, values, f"{text} of {node_count}" if text else "")
+        yield _mean(blocks, quantity, values, f"{text} of {node_count}" if text else "")
 
 
-def _mean(result: RunSummary, quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
+def _mean(blocks: Sequence[_Block], quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
     mean, half_width = mean_with_half_width(values) if values else (None, None)
+    first = blocks[0].conditions
     return Mean(
-        result.config,
-        result.mode,
-        result.iterations,
+        first.config,
+        first.mode,
+        first.iterations,
         quantity,
         len(values),
         mean,

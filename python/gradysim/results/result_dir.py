@@ -6,12 +6,13 @@ A JSON file takes precedence over a packed one. Of several packs the one with th
 import os
 import shlex
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from gradysim.results.files import bytes_of, is_run_file, parsed
 from gradysim.results.pack import PackedFile, packed_files, packed_summaries, packs_of
-from gradysim.results.run_summary import RunSummary, in_order
+from gradysim.results.run_summary import Conditions, RunSummary, in_order
 from gradysim.scenario.errors import ConfigError, Source
 
 _FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
@@ -33,10 +34,13 @@ def read_results(directory: Path) -> list[RunSummary]:
             if name not in found or found[name][0] < state.time_ns:
                 found[name] = state.time_ns, summary, interrupted
     complete = [summary for _, summary, interrupted in found.values() if not interrupted]
+    known: dict[object, Conditions] = {}
     for name in loose.keys() - found.keys():
         result = result_in(directory / name)
         if result is not None and not result["interrupted"]:
-            complete.append(RunSummary.of(result, directory / name))
+            summary = RunSummary.of(result, directory / name)
+            conditions = known.setdefault(summary.conditions.key, summary.conditions)
+            complete.append(replace(summary, conditions=conditions))
     return in_order(complete)
 
 

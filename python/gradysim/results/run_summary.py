@@ -15,7 +15,7 @@ from gradysim.results.tracked_variables import tracked_by_group, variables_of_gr
 
 @dataclass(frozen=True)
 class Conditions:
-    """What repetitions of a run have in common. The runs of a pack share one object.
+    """What repetitions of a run have in common. They share one object, which makes means fast.
 
     Attributes:
         groups: Number of nodes by group.
@@ -42,6 +42,19 @@ class Conditions:
     def values(self) -> str:
         """Key of the runs that are averaged."""
         return json.dumps([self.config, self.mode, self.iterations], sort_keys=True)
+
+    @property
+    def key(self) -> object:
+        """Key of equal conditions."""
+        plain = (
+            self.iterations,
+            self.file_hashes,
+            self.groups,
+            self.variables,
+            self.averages,
+            self.quantities,
+        )
+        return self.config, self.mode, self.settings_hash, repr(plain)
 
     @cached_property
     def positions(self) -> Mapping[str, int]:

@@ -6,6 +6,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from gradysim.protocol.plain_value import as_float, key_text
@@ -65,6 +66,7 @@ def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Track
     return groups
 
 
+@cache
 def group_of(node: str) -> str:
     """Return `uavs[*]` for `uavs[0]`; the name itself if it has no index."""
     return re.sub(r"\[\d+\]$", "[*]", node)

@@ -60,3 +60,12 @@ def test_a_folder_with_any_result_has_not_only_files_for_omnetpp(tmp_path: Path,
     assert has_files_for_omnetpp_alone(tmp_path)
     (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result(interrupted=interrupted)))
     assert not has_files_for_omnetpp_alone(tmp_path)
+
+
+def test_equal_conditions_are_one_object(tmp_path: Path) -> None:
+    several: list[dict[str, Any]] = [{}, {"seed": 5}, {"iterations": {"jitter": "20ms"}}]
+    for run, changes in enumerate(several):
+        (tmp_path / f"Study-#{run}.integrated.json").write_text(json.dumps(result(run, **changes)))
+    first, second, other = (summary.conditions for summary in read_results(tmp_path))
+    assert first is second
+    assert first is not other
