@@ -7,11 +7,11 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import LOCKED, OK, say_mistake
-from gradysim.cli.options import Flag, ResultsArgument
+from gradysim.cli.options import Flag, ResultDirArgument
 
 
 def pack_results(
-    directory: ResultsArgument,
+    directory: ResultDirArgument,
     /,
     *,
     output: Annotated[

@@ -34,7 +34,7 @@ def read_results(directory: Path) -> list[RunSummary]:
             if name not in found or found[name][0] < state.time_ns:
                 found[name] = state.time_ns, summary, interrupted
     complete = [summary for _, summary, interrupted in found.values() if not interrupted]
-    known: dict[object, Conditions] = {}
+    known: dict[str, Conditions] = {}
     for name in loose.keys() - found.keys():
         result = result_in(directory / name)
         if result is not None and not result["interrupted"]:

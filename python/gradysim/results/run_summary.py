@@ -44,17 +44,11 @@ class Conditions:
         return json.dumps([self.config, self.mode, self.iterations], sort_keys=True)
 
     @property
-    def key(self) -> object:
-        """Key of equal conditions."""
-        plain = (
-            self.iterations,
-            self.file_hashes,
-            self.groups,
-            self.variables,
-            self.averages,
-            self.quantities,
-        )
-        return self.config, self.mode, self.settings_hash, repr(plain)
+    def key(self) -> str:
+        """The same text for equal conditions."""
+        names = self.groups, self.variables, self.averages, self.quantities
+        settings = self.config, self.mode, self.iterations, self.settings_hash, self.file_hashes
+        return repr((settings, names))
 
     @cached_property
     def positions(self) -> Mapping[str, int]:
