@@ -8,6 +8,7 @@ from cyclopts import Parameter
 
 from gradysim.cli.errors import LOCKED, OK, say_mistake
 from gradysim.cli.options import Flag, ResultDirArgument
+from gradysim.cli.study import check_directory
 
 
 def pack_results(
@@ -34,9 +35,7 @@ def pack_results(
 
     file = output or packing.default_pack(directory)
     try:
-        if not directory.is_dir():
-            reason = "it is not a directory" if directory.exists() else "there is no such directory"
-            raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
+        check_directory(directory)
         with waiting(f"{'unpacking' if unpack else 'packing'} {directory}", shown=True):
             if unpack:
                 packs = packs_of(directory) if output is None else [output]
@@ -46,7 +45,7 @@ def pack_results(
     except RunLockedError as locked:
         print(f"{directory}: a run is computed there: {locked}; expected its end before", file=sys.stderr)
         return LOCKED
-    except (ConfigError, OSError) as mistake:
+    except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
     runs = "run" if count == 1 else "runs"
     if unpack:

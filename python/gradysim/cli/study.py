@@ -1,4 +1,4 @@
-"""The runs in the directory of a study, for `gradysim means`, `gradysim plot` and `gradysim compare`."""
+"""The directory of a study, and the runs in it, for commands that read them."""
 
 import shlex
 import sys
@@ -20,10 +20,8 @@ def read_study(directory: Path) -> "Runs":
     from gradysim.results.run_table import runs
     from gradysim.scenario.errors import ConfigError
 
-    if not directory.exists():
-        raise ConfigError(
-            f"{directory}: there is no such directory; expected that of `gradysim run FILE --result-dir DIR`"
-        )
+    if not directory.is_file():
+        check_directory(directory)
     with gc_paused():  # summaries are no garbage
         found = runs(directory)
     if not len(found):
@@ -66,6 +64,15 @@ def check_quantities(
                 expected=f"one that `gradysim means {shlex.quote(str(directory))}` prints",
                 suggestion=nearest(quantity, known),
             )
+
+
+def check_directory(directory: Path) -> None:
+    """Raise ConfigError if there is no such directory."""
+    from gradysim.scenario.errors import ConfigError
+
+    if not directory.is_dir():
+        reason = "it is not a directory" if directory.exists() else "there is no such directory"
+        raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
 
 
 def warn_of_mixed_runs(directory: Path, results: "Runs") -> None:
