@@ -10,6 +10,7 @@
     gradysim compare DIR DIR [--metric QUANTITY] ...
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
     gradysim import FILE.ini [-o DIR]
+    gradysim pack DIR [-o FILE] [--remove] [--unpack]
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -35,6 +36,7 @@ from gradysim.cli.import_file import import_file
 from gradysim.cli.keys import list_keys
 from gradysim.cli.means import print_means
 from gradysim.cli.new import make_project
+from gradysim.cli.pack import pack_results
 from gradysim.cli.plot import draw_figure
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
@@ -81,6 +83,7 @@ app.command(print_status, name="status")
 app.command(print_means, name="means")
 app.command(compare)
 app.command(draw_figure, name="plot")
+app.command(pack_results, name="pack")
 app.command(list_keys, name="keys")
 app.command(import_file, name="import")
 app.command(calibrate_power, name="calibrate")

@@ -22,15 +22,14 @@ if TYPE_CHECKING:
 
 def check_other_settings(study: "Study", options: RunOptions) -> None:
     """Raise ConfigError if these runs would replace results of other settings or seeds without --replace."""
-    from gradysim.results.files import run_file
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_runs
 
-    others = []
-    for place, number in enumerate(study.numbers if options.is_writer else ()):
-        file = run_file(options.directory, study.config, number, options.mode)
-        if file.exists() and is_of_other_settings(study[place], options):
-            others.append(number)
+    others = [
+        study.numbers[place]
+        for place in (_with_result(study, options) if options.is_writer else ())
+        if is_of_other_settings(study[place], options)
+    ]
     if others:
         raise ConfigError(
             f"--result-dir {options.directory}: it has results with other settings or seeds for"
@@ -99,10 +98,9 @@ class State(Enum):
 
 def states_of(study: "Study", options: RunOptions) -> Iterator[tuple[int, State, tuple[str, ...]]]:
     """Yield the number of each run, its state, and the files that have changed since, as --resume does."""
-    from gradysim.results.files import run_file
-
+    with_result = set(_with_result(study, options))
     for place, number in enumerate(study.numbers):
-        if not run_file(options.directory, study.config, number, options.mode).exists():
+        if place not in with_result:
             yield number, State.MISSING, ()
         else:
             yield number, *_state_of(study[place], options)
@@ -122,6 +120,19 @@ def _state_of(scenario: "Scenario", options: RunOptions) -> tuple[State, tuple[s
     if has_other_settings(scenario, options.mode, options.directory):
         return State.OF_OTHER_SETTINGS, ()
     return State.INCOMPLETE, ()
+
+
+def _with_result(study: "Study", options: RunOptions) -> list[int]:
+    """Return the positions in `study` of runs that have a result in the directory or in its packs."""
+    from gradysim.results.files import run_file
+    from gradysim.results.result_dir import result_names
+
+    names = result_names(options.directory)
+    return [
+        place
+        for place, number in enumerate(study.numbers)
+        if run_file(Path(), study.config, number, options.mode).name in names
+    ]
 
 
 def is_done(scenario: "Scenario", options: RunOptions) -> bool:

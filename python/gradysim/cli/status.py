@@ -6,7 +6,7 @@ from pathlib import Path
 
 from gradysim.cli.earlier_results import State, states_of
 from gradysim.cli.errors import INCOMPLETE, OK, say_mistake
-from gradysim.cli.options import FileArgument, ResultsArgument, RunOptions, StatusOptions
+from gradysim.cli.options import FileArgument, ResultDirArgument, RunOptions, StatusOptions
 from gradysim.cli.runs import check
 from gradysim.cli.study import check_directory
 
@@ -14,7 +14,7 @@ DEFAULTS = StatusOptions()
 
 
 def print_status(
-    directory: ResultsArgument, file: FileArgument, /, *, options: StatusOptions = DEFAULTS
+    directory: ResultDirArgument, file: FileArgument, /, *, options: StatusOptions = DEFAULTS
 ) -> int:
     """List which runs of a configuration are done. The exit code is 0 only if all of them are."""
     from gradysim.scenario.errors import ConfigError

@@ -11,16 +11,19 @@ if TYPE_CHECKING:
 
 
 def read_study(directory: Path) -> "Runs":
-    """Return the runs in a directory, at least one.
+    """Return the runs in a directory or in a pack, at least one.
 
     Raises ConfigError and OSError.
     """
-    from gradysim.results.means import has_files_for_omnetpp_alone
+    from gradysim.encapsulator.run_context import gc_paused
+    from gradysim.results.result_dir import has_files_for_omnetpp_alone
     from gradysim.results.run_table import runs
     from gradysim.scenario.errors import ConfigError
 
-    check_directory(directory)
-    found = runs(directory)
+    if not directory.is_file():
+        check_directory(directory)
+    with gc_paused():  # summaries are no garbage
+        found = runs(directory)
     if not len(found):
         reason = "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
         raise ConfigError(

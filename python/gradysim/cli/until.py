@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from gradysim.cli.options import RunOptions
 
 if TYPE_CHECKING:
-    from gradysim.results.means import RunSummary
+    from gradysim.results.run_summary import RunSummary
     from gradysim.scenario.load import Study
 
 BATCH = 5
@@ -119,7 +119,7 @@ class _Numbers:
 
     def _read(self, place: int) -> "RunSummary":
         from gradysim.results.files import read_run_file, run_file
-        from gradysim.results.means import RunSummary
+        from gradysim.results.run_summary import RunSummary
         from gradysim.scenario.errors import ConfigError, nearest
 
         study, options = self._study, self._options

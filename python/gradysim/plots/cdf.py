@@ -17,7 +17,7 @@ from gradysim.plots.numbers import (
     series_of,
 )
 from gradysim.results.files import read_run_file
-from gradysim.results.means import RunSummary
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs, nodes_of
 from gradysim.results.tracked_variables import numbers_and_others, tracked_by_group
 from gradysim.scenario.errors import ConfigError
@@ -40,7 +40,7 @@ def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbe
     check_quantity(runs, y)
     curves, counts, averaged = [], [], False
     for values, alike in series_of(runs, by):
-        found = [each for run in alike if y in run.numbers and (each := _distribution(run, y))]
+        found = [each for run in alike if run.number(y) is not None and (each := _distribution(run, y))]
         if not found:
             continue
         counts.append(len(found))
@@ -77,7 +77,7 @@ def _distribution(run: RunSummary, y: str) -> Distribution | None:
                 expected="a result of this version: run it again",
             )
         return delays["cumulative"]["time_s"], delays["cumulative"]["share"]
-    for group, name in run.numeric_variables:
+    for group, name in run.conditions.variables:
         if f"{group} {name}" == y:
             numbers, _ = numbers_and_others(tracked_by_group(nodes_of(run))[group], name)
             return _of_values(numbers) if numbers else None

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import gradysim
 from gradysim.plots.numbers import Curve, Numbers
-from gradysim.results.means import RunSummary
+from gradysim.results.files import hash_of_run_file
+from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.runs import hash_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -128,7 +128,7 @@ def write_files(
     told = [
         {
             "file": str(run.file),
-            "hash": hash_of(run.file),
+            "hash": hash_of_run_file(run.file),
             "config": run.config,
             "mode": run.mode,
             "run": run.run,

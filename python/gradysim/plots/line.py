@@ -15,7 +15,7 @@ from gradysim.plots.numbers import (
     series_of,
     x_axis,
 )
-from gradysim.results.means import RunSummary
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs, variables_of
 from gradysim.scenario.errors import ConfigError, nearest
 
@@ -38,7 +38,7 @@ def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None)
         found = {
             place: numbers
             for value, place in axis.places.items()
-            if (numbers := [each.numbers[y] for each in _with(alike, x, value) if y in each.numbers])
+            if (numbers := _numbers(_with(alike, x, value), y))
         }
         if found:
             curves.append(Curve(values, {axis.label: list(found), **mean_columns(list(found.values()))}))
@@ -156,5 +156,13 @@ def _rest(values: dict[str, Any], compared: str) -> tuple[Any, ...]:
 
 
 def _differences(runs: Sequence[RunSummary], others: Sequence[RunSummary], y: str) -> list[float]:
-    by_seed = {other.seed: other.numbers[y] for other in others if y in other.numbers}
-    return [run.numbers[y] - by_seed[run.seed] for run in runs if y in run.numbers and run.seed in by_seed]
+    by_seed = {other.seed: number for other in others if (number := other.number(y)) is not None}
+    return [
+        number - by_seed[run.seed]
+        for run in runs
+        if (number := run.number(y)) is not None and run.seed in by_seed
+    ]
+
+
+def _numbers(runs: Iterable[RunSummary], y: str) -> list[float]:
+    return [number for run in runs if (number := run.number(y)) is not None]

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from gradysim.results.confidence_interval import mean_with_half_width
-from gradysim.results.means import RunSummary
 from gradysim.results.quantity import quantities
 from gradysim.results.result import RunResult
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import OF_RUN, Runs, variables_of
 from gradysim.scenario.errors import BadValue, ConfigError, nearest
 from gradysim.scenario.expressions import parse_value

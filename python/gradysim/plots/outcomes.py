@@ -13,9 +13,8 @@ from gradysim.plots.numbers import (
     series_of,
     x_axis,
 )
-from gradysim.results.means import RunSummary
-from gradysim.results.outcomes import decided
-from gradysim.results.run_table import Runs, variables_of
+from gradysim.results.outcomes import Outcomes, decided
+from gradysim.results.run_table import Runs, fates_of, variables_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -44,9 +43,10 @@ def outcomes_numbers(
     `y` is `broadcast frames`, `unicast messages` and so on: a kind, and a ledger of `fates`. `omit` names
     outcomes to leave out, such as `below sensitivity`. Ratios refer to the others. Raises ConfigError.
     """
-    check_quantity(runs, y, outcome_names(runs))
+    fates = {id(run): fates_of(run) for run in runs}
+    check_quantity(runs, y, _names(fates.values()))
     kind, _, ledger = y.rpartition(" ")
-    counts = {id(run): _counts(run, ledger, kind, set(omit)) for run in runs}
+    counts = {run: _counts(each, ledger, kind, set(omit)) for run, each in fates.items()}
     axis = x_axis(runs, x) if x else None
     bars: list[tuple[dict[str, Any], list[dict[str, int]]]] = []
     for place in axis.places if axis else [None]:
@@ -71,7 +71,11 @@ def outcomes_numbers(
 
 def outcome_names(runs: Runs) -> list[str]:
     """Return the names for `y`: `broadcast frames` and so on."""
-    names = {f"{kind} {ledger}" for run in runs for ledger, kinds in run.fates.items() for kind in kinds}
+    return _names(map(fates_of, runs))
+
+
+def _names(fates: Iterable[Outcomes]) -> list[str]:
+    names = {f"{kind} {ledger}" for each in fates for ledger, kinds in each.items() for kind in kinds}
     return sorted(names)
 
 
@@ -97,8 +101,8 @@ def draw_outcomes(axes: "Axes", numbers: Numbers) -> "Axes":
     return axes
 
 
-def _counts(run: RunSummary, ledger: str, kind: str, omit: set[str]) -> dict[str, int]:
-    counts = decided(run.fates.get(ledger, {}).get(kind, {}))
+def _counts(fates: Outcomes, ledger: str, kind: str, omit: set[str]) -> dict[str, int]:
+    counts = decided(fates.get(ledger, {}).get(kind, {}))
     return {outcome: count for outcome, count in counts.items() if outcome not in omit}
 
 

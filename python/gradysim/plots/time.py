@@ -29,7 +29,7 @@ def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numb
 
     `y` is `uavs[*] heard`, as in `gradysim means`, or `uavs[*] positionZ`. Raises ConfigError and OSError.
     """
-    group = next((name for run in runs for name in run.groups if y.startswith(f"{name} ")), "")
+    group = next((name for run in runs for name in run.conditions.groups if y.startswith(f"{name} ")), "")
     variable = y.removeprefix(f"{group} ")
     found: dict[int, list[Vector]] = {}
     for run, node, _, times_s, recorded in runs.vectors([variable] if group else []):

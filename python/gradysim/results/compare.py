@@ -3,11 +3,12 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from gradysim.results.means import RunSummary, means
+from gradysim.results.means import means
 from gradysim.results.outcomes import loss_shares
 from gradysim.results.paired import Estimate, compare_pairs, estimate
 from gradysim.results.quantity import Names
-from gradysim.results.run_table import Runs, variables_of
+from gradysim.results.run_summary import RunSummary
+from gradysim.results.run_table import Runs, fates_of, variables_of
 from gradysim.scenario.errors import ConfigError
 
 _OWN = ("run", "seed")
@@ -59,7 +60,7 @@ class Pairs:
 
     def losses(self) -> list[Change]:
         """Return the change of each cause of loss, as a share of receptions, if any was lost."""
-        shares = {id(run): loss_shares(run.fates) for run in self.all_runs}
+        shares = {id(run): loss_shares(fates_of(run)) for run in self.all_runs}
         causes = dict.fromkeys(name for found in shares.values() for name, share in found.items() if share)
         found = self._compared(causes, lambda run: shares[id(run)])
         return [loss for loss in found if any(side and side.mean for side in (loss.first, loss.second))]

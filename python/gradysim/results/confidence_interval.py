@@ -3,15 +3,13 @@
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
 
 CONFIDENCE = 0.95
 """Ratio of such intervals that contain the true mean."""
 
 _LARGEST = 1000.0
 """Upper bound of all quantiles. The quantile of one degree of freedom is 12.7."""
-
-_HUGE, _SMALLER = 2.0**900, 2.0**-100
-"""Above `_HUGE`, deviations may overflow a float; such values are scaled by `_SMALLER`."""
 
 
 def mean_of(values: Sequence[float]) -> float:
@@ -28,15 +26,21 @@ def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
     The values are assumed to be independent and normally distributed. A width that overflows a float is
     infinite.
     """
-    from statistics import stdev
-
     if len(values) < 2:
         return mean_of(values), None
-    scale = _SMALLER if max(map(abs, values)) > _HUGE else 1.0
-    deviation = stdev([value * scale for value in values])
-    return mean_of(values), _quantile(len(values) - 1) * deviation / math.sqrt(len(values)) / scale
+    # Relative to the smallest and largest value squares do not overflow. Halves do not, either.
+    low, half_range = min(values) / 2, max(values) / 2 - min(values) / 2
+    if half_range == 0:
+        return mean_of(values), 0.0
+    relative = [(value / 2 - low) / half_range for value in values]
+    mean = mean_of(relative)
+    # A sum of `fsum` is the same in any order of the values.
+    variance = math.fsum([(value - mean) ** 2 for value in relative]) / (len(values) - 1)
+    half_width = _quantile(len(values) - 1) * math.sqrt(variance / len(values)) * half_range
+    return mean_of(values), 2 * half_width
 
 
+@cache
 def _quantile(freedom: int) -> float:
     """Return the t that is exceeded in absolute value with probability 1 - CONFIDENCE; `freedom` >= 1."""
     low, high = 0.0, _LARGEST

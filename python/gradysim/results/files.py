@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from gradysim.results.durable import replacing
+from gradysim.results.pack import packed_bytes
 from gradysim.results.result import Mode, RunResult, plain_iterations
 from gradysim.scenario.runs import HASH_DIGITS, hash_of
 from gradysim.scenario.scenario import Scenario
@@ -74,6 +75,9 @@ def _has_settings_of(scenario: Scenario, result: Mapping[str, Any]) -> bool:
 
 def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable[Path]) -> bool:
     """Return whether all these files are complete, and belong to the run whose result is in `directory`."""
+    files = list(files)
+    if not files:
+        return True
     known = _read(run_file(directory, scenario.config, scenario.run_number, mode)).get("output_hashes")
     hashes = known if isinstance(known, dict) else {}
     return all((found := hash_of(file)) and hashes.get(file.name) == found for file in files)
@@ -123,13 +127,18 @@ def with_checksum(text: str) -> str:
 
 
 def read_run_file(file: Path) -> dict[str, Any]:
-    """Return the JSON object in a result file. A file without a checksum is accepted.
+    """Return the JSON object in a result file, which may be in a pack. One without a checksum is accepted.
 
     Raises:
         OSError: It cannot be read.
         ValueError: It is not a JSON object, or its checksum does not match.
     """
-    text = file.read_text(encoding="utf-8")
+    return parsed(bytes_of(file))
+
+
+def parsed(content: bytes) -> dict[str, Any]:
+    """Return the JSON object in the content of a result file. Raises ValueError as `read_run_file`."""
+    text = content.decode("utf-8").replace("\r\n", "\n")  # written on Windows
     try:
         found = json.loads(text)
     except RecursionError as error:
@@ -144,5 +153,25 @@ def read_run_file(file: Path) -> dict[str, Any]:
     return found
 
 
+def bytes_of(file: Path) -> bytes:
+    """Return the content of a result file, which may be in a pack. Raises OSError."""
+    try:
+        return file.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        packed = packed_bytes(file)
+        if packed is None:
+            raise
+        return packed
+
+
+def hash_of_run_file(file: Path) -> str:
+    """Return the hash of a result file, which may be in a pack. Raises OSError."""
+    return _hash(bytes_of(file))
+
+
 def _hash_of_text(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:HASH_DIGITS]
+    return _hash(text.encode())
+
+
+def _hash(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()[:HASH_DIGITS]

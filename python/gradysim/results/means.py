@@ -3,25 +3,22 @@
 import hashlib
 import json
 import os
-import re
-import shlex
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
 from gradysim.results.confidence_interval import mean_with_half_width
-from gradysim.results.files import is_run_file, read_run_file
-from gradysim.results.outcomes import Outcomes
-from gradysim.results.quantity import Average, Names, averages_of, name_filter
-from gradysim.results.result import RunResult
-from gradysim.results.tracked_variables import TrackedGroup, numeric_variables, tracked_by_group
-from gradysim.scenario.errors import ConfigError, Source
+from gradysim.results.files import read_run_file
+from gradysim.results.quantity import Names, name_filter
+from gradysim.results.result_dir import read_results
+from gradysim.results.run_summary import Conditions, RunSummary
+from gradysim.results.tracked_variables import REASONS
 
-_FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
-"""Fields that distinguish the result of a run from other JSON files."""
+_Item = TypeVar("_Item")
 
 
 @dataclass(frozen=True)
@@ -49,131 +46,14 @@ class Mean:
     left_out: str = ""
 
 
-@dataclass(frozen=True)
-class RunSummary:
-    """Summary of one run for means. A result has all its nodes, and a study many results.
-
-    Attributes:
-        computed: Hash of all computed values of the run.
-        groups: Tracked variables by group of nodes.
-        numeric_variables: (group, name) of those that are a number at any node, including infinity.
-        averages: Numbers of the run, by name.
-        fates: Outcomes of frames and messages; see `LEDGERS`.
-        file: The result file.
-    """
-
-    config: str
-    mode: str
-    run: int
-    iterations: Mapping[str, object]
-    seed: object
-    settings_hash: object
-    file_hashes: Mapping[str, str]
-    computed: str
-    groups: Mapping[str, TrackedGroup]
-    numeric_variables: tuple[tuple[str, str], ...]
-    averages: Mapping[str, Average]
-    fates: Outcomes
-    file: Path
-
-    @classmethod
-    def of(cls, result: Mapping[str, Any], file: Path = Path()) -> "RunSummary":
-        """Return the summary of a JSON object."""
-        hashes = result.get("file_hashes")
-        tracked = tracked_by_group(result["nodes"])
-        return cls(
-            result["config"],
-            result["mode"],
-            result["run"],
-            result["iterations"],
-            result.get("seed"),
-            result.get("settings_hash"),
-            hashes if isinstance(hashes, dict) else {},
-            _hash([result.get(field) for field in ("fingerprint", "fates", "nodes")]),
-            {group: TrackedGroup.of(nodes) for group, nodes in tracked.items()},
-            tuple(numeric_variables(tracked)),
-            {average.name: average for average in averages_of(RunResult, result)},
-            result["fates"],
-            file,
-        )
-
-    @cached_property
-    def numbers(self) -> Mapping[str, float]:
-        """Numbers of the run by quantity. For a tracked variable: the mean of a group, if it has one."""
-        variables = {
-            f"{group} {name}": mean
-            for group, name in self.numeric_variables
-            if (mean := self.groups[group].variable(name).mean) is not None
-        }
-        return variables | {name: average.value for name, average in self.averages.items()}
-
-    @property
-    def values(self) -> str:
-        """Key of the runs that are averaged."""
-        return json.dumps([self.config, self.mode, self.iterations], sort_keys=True)
-
-    @property
-    def name(self) -> str:
-        """Name for messages."""
-        return f"{self.config}-#{self.run}"
-
-
-def _hash(content: object) -> str:
-    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
-
-
 def read_means(directory: str | os.PathLike[str], quantities: Names | None = None) -> list[Mean]:
-    """Return the means that `gradysim means` prints of a directory.
+    """Return the means that `gradysim means` prints of a directory, or of a pack.
 
     Interrupted runs are left out. `quantities` selects by name, `"uavs[*] heard"` or
     `["*delay*", "unicast messages *"]`, with `*` for any characters and `?` for a single one. None selects
     all except numbers of the run itself, such as `cpu_s`. Raises ConfigError for a damaged file, and OSError.
     """
     return means(read_results(Path(directory)), quantities)
-
-
-def read_results(directory: Path) -> list[RunSummary]:
-    """Return summaries of the runs in a directory, sorted by configuration, mode and run.
-
-    Other files and interrupted runs are left out. Raises ConfigError for a damaged file, and OSError.
-    """
-    found = [
-        RunSummary.of(result, file) for file, result in _results_in(directory) if not result["interrupted"]
-    ]
-    return sorted(found, key=lambda result: (*_natural(result.config), result.mode, result.run))
-
-
-def _natural(name: str) -> tuple[list[str], list[int]]:
-    """Return a key that sorts `Field5` before `Field15`."""
-    return re.split(r"\d+", name), [int(digits) for digits in re.findall(r"\d+", name)]
-
-
-def has_files_for_omnetpp_alone(directory: Path) -> bool:
-    """Return whether a directory has `.sca` or `.vec` files, but no JSON file of a run."""
-    others = any(file.suffix in (".sca", ".vec") for file in directory.iterdir())
-    return others and not any(_results_in(directory))
-
-
-def _results_in(directory: Path) -> Iterator[tuple[Path, dict[str, Any]]]:
-    """Yield the result files in a directory and their JSON objects, including those of interrupted runs.
-
-    Raises ConfigError for a damaged one, and OSError.
-    """
-    for file in sorted(directory.iterdir()):
-        if file.suffix == ".json" and file.is_file():
-            try:
-                result = read_run_file(file)
-            except ValueError as error:
-                if is_run_file(file.name):
-                    raise ConfigError(
-                        f"it is damaged: {error}",
-                        Source(file, 0),
-                        expected="the file as its run left it; to do the run again, use"
-                        f" `gradysim run FILE --result-dir {shlex.quote(str(directory))} --resume`",
-                    ) from error
-                continue
-            if result.keys() >= _FIELDS:
-                yield file, result
 
 
 def means(results: Iterable[RunSummary], quantities: Names | None = None) -> list[Mean]:
@@ -184,34 +64,63 @@ def means(results: Iterable[RunSummary], quantities: Names | None = None) -> lis
     """
     found: list[Mean] = []
     fits = name_filter(quantities)
-    for study in _by(results, lambda result: (result.config, result.mode)):
+    for study in _by(_blocks(results), lambda block: (block.conditions.config, block.conditions.mode)):
         variables = [
-            each
-            for each in dict.fromkeys(each for run in study for each in run.numeric_variables)
-            if fits(" ".join(each))
+            each for each in _union(block.conditions.variables for block in study) if fits(" ".join(each))
         ]
-        shown = dict.fromkeys(
+        unlisted = () if quantities is not None else _union(block.conditions.unlisted for block in study)
+        hidden_at_zero = _union(block.conditions.hidden_at_zero for block in study)
+        shown = [
             name
-            for run in study
-            for name, average in run.averages.items()
-            if (average.value or average.shown_at_zero)
-            and fits(name)
-            and (average.listed or quantities is not None)
-        )
-        for alike in _by(study, lambda result: result.values):
+            for name in _union(block.conditions.averages for block in study)
+            if fits(name)
+            and name not in unlisted
+            and (name not in hidden_at_zero or any(_values(study, name)))
+        ]
+        for alike in _by(study, lambda block: block.conditions.values):
             for group, name in variables:
                 found += _mean_of_variable(alike, group, name)
             for name in shown:
-                if values := [run.averages[name].value for run in alike if name in run.averages]:
-                    found.append(_mean(alike[0], name, values))
+                if values := _values(alike, name):
+                    found.append(_mean(alike, name, values))
     return found
+
+
+@dataclass(frozen=True)
+class _Block:
+    """Runs of which all have the same conditions, as one object."""
+
+    runs: Sequence[RunSummary]
+
+    @property
+    def conditions(self) -> Conditions:
+        return self.runs[0].conditions
+
+    @cached_property
+    def columns(self) -> Mapping[str, Sequence[float]]:
+        """Numbers of the runs by quantity."""
+        columns = zip(*[run.row for run in self.runs], strict=True)
+        return dict(zip(self.conditions.quantities, columns, strict=True))
+
+
+def _blocks(runs: Iterable[RunSummary]) -> list[_Block]:
+    return [_Block(alike) for alike in _by(runs, lambda run: id(run.conditions))]
+
+
+def _union(several: Iterable[Iterable[_Item]]) -> dict[_Item, None]:
+    return dict.fromkeys(item for items in several for item in items)
+
+
+def _values(blocks: Iterable[_Block], quantity: str) -> list[float]:
+    """Return the numbers of a quantity, of the runs that have one."""
+    return list(chain.from_iterable(block.columns.get(quantity, ()) for block in blocks))
 
 
 def of_different_settings(results: Iterable[RunSummary]) -> tuple[str, str] | None:
     """Return the names of two runs with equal values of variables but different settings, if any."""
     first: dict[str, RunSummary] = {}
-    for result in results:
-        other = first.setdefault(result.values, result)
+    for result in (block.runs[0] for block in _blocks(results)):
+        other = first.setdefault(result.conditions.values, result)
         if other.settings_hash != result.settings_hash:
             return other.name, result.name
     return None
@@ -224,13 +133,20 @@ def repeated(results: Iterable[RunSummary]) -> list[tuple[str, str]]:
     """
     first: dict[object, RunSummary] = {}
     found = []
-    for alike in _by(results, lambda result: (result.values, result.seed)):
-        for result in alike:
-            same = (result.values, result.seed, result.settings_hash, result.computed)
+    for alike in _by(results, lambda result: (result.conditions.values, result.seed)):
+        for result in alike if len(alike) > 1 else ():
+            same = (result.conditions.values, result.seed, result.settings_hash, _computed(result))
             other = first.setdefault(same, result)
             if other is not result:
                 found.append((other.name, result.name))
     return found
+
+
+def _computed(run: RunSummary) -> str:
+    """Return a key of all computed values of a run, from its file."""
+    result = read_run_file(run.file)
+    content = json.dumps([result.get(field) for field in ("fingerprint", "fates", "nodes")], sort_keys=True)
+    return hashlib.sha256(content.encode()).hexdigest()
 
 
 def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | None:
@@ -239,8 +155,8 @@ def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | 
     The values of their variables may differ, since such runs are compared with each other.
     """
     first: dict[tuple[str, str], tuple[str, RunSummary]] = {}
-    for result in results:
-        for name, file_hash in result.file_hashes.items():
+    for result in (block.runs[0] for block in _blocks(results)):
+        for name, file_hash in result.conditions.file_hashes.items():
             known, other = first.setdefault((result.config, name), (file_hash, result))
             if known != file_hash:
                 one, another = (f"{each.name}.{each.mode}" for each in (other, result))
@@ -248,35 +164,39 @@ def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | 
     return None
 
 
-def _by(results: Iterable[RunSummary], key: Callable[[RunSummary], object]) -> list[list[RunSummary]]:
-    """Return the results in groups of equal keys."""
-    groups: dict[object, list[RunSummary]] = {}
-    for result in results:
-        groups.setdefault(key(result), []).append(result)
+def _by(items: Iterable[_Item], key: Callable[[_Item], object]) -> list[list[_Item]]:
+    """Return items in groups of equal keys."""
+    groups: dict[object, list[_Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
     return list(groups.values())
 
 
-def _mean_of_variable(runs: Sequence[RunSummary], group: str, name: str) -> Iterator[Mean]:
-    of_runs: list[float] = []
+def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str) -> Iterator[Mean]:
+    quantity = f"{group} {name}"
     left_out: Counter[str] = Counter()
-    nodes = 0
-    for of_group in (run.groups[group] for run in runs if group in run.groups):
-        nodes += of_group.node_count
-        variable = of_group.variable(name)
-        left_out.update(variable.others)
-        if variable.mean is not None:
-            of_runs.append(variable.mean)
-    if nodes:
-        text = ", ".join(f"{count} {what}" for what, count in left_out.items())
-        yield _mean(runs[0], f"{group} {name}", of_runs, f"{text} of {nodes}" if text else "")
+    node_count = 0
+    for block in blocks:
+        in_group = block.conditions.groups.get(group, 0)
+        node_count += in_group * len(block.runs)
+        others = [run.left_out[quantity] for run in block.runs if quantity in run.left_out]
+        for each in others:
+            left_out.update(each)
+        if quantity not in block.columns:
+            left_out["missing"] += in_group * (len(block.runs) - len(others))
+    if node_count:
+        text = ", ".join(f"{left_out[what]} {what}" for what in REASONS if left_out[what])
+        values = _values(blocks, quantity)
+        yield _mean(blocks, quantity, values, f"{text} of {node_count}" if text else "")
 
 
-def _mean(result: RunSummary, quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
+def _mean(blocks: Sequence[_Block], quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
     mean, half_width = mean_with_half_width(values) if values else (None, None)
+    first = blocks[0].conditions
     return Mean(
-        result.config,
-        result.mode,
-        result.iterations,
+        first.config,
+        first.mode,
+        first.iterations,
         quantity,
         len(values),
         mean,

@@ -101,7 +101,7 @@ TABLES: Mapping[str, Mapping[str, str]] = {
 """{table: {column: its type}}. Numbers that may be NaN may be NULL: SQLite stores NaN as NULL."""
 
 RUN_ID = 1
-"""Id of the only run in a file."""
+"""Id of the only run in a file of one run."""
 
 
 @dataclass(frozen=True)
@@ -168,10 +168,8 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
                 connection.execute("PRAGMA journal_mode = OFF")
                 connection.execute("PRAGMA synchronous = OFF")
                 connection.execute("BEGIN")
-                for table, columns in TABLES.items():
-                    listed = ", ".join(f"{name} {kind}" for name, kind in columns.items())
-                    connection.execute(f"CREATE TABLE {table} ({listed})")
-                _insert_run(connection, identity)
+                create_tables(connection, TABLES)
+                insert_run(connection, identity)
                 yield connection
                 connection.execute("COMMIT")
             finally:
@@ -180,24 +178,32 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
             raise OSError(errno.EIO, str(error), str(path)) from error
 
 
+def create_tables(connection: "sqlite3.Connection", tables: Mapping[str, Mapping[str, str]]) -> None:
+    """Create tables, given as {table: {column: its type}}."""
+    for table, columns in tables.items():
+        listed = ", ".join(f"{name} {kind}" for name, kind in columns.items())
+        connection.execute(f"CREATE TABLE {table} ({listed})")
+
+
 def storable(text: str) -> str:
     """Return the string with escapes for what UTF-8 cannot encode, such as half a surrogate pair."""
     return text.encode(errors="backslashreplace").decode()
 
 
-def _insert_run(connection: "sqlite3.Connection", identity: RunIdentity) -> None:
+def insert_run(connection: "sqlite3.Connection", identity: RunIdentity, run_id: int = RUN_ID) -> None:
+    """Insert the rows about a run."""
     connection.execute(
-        "INSERT INTO run VALUES (?, ?, ?)", (RUN_ID, storable(identity.name), SIMTIME_EXPONENT)
+        "INSERT INTO run VALUES (?, ?, ?)", (run_id, storable(identity.name), SIMTIME_EXPONENT)
     )
     for table, values in (("runAttr", identity.attributes), ("runItervar", identity.iterations)):
         connection.executemany(
             f"INSERT INTO {table} VALUES (?, ?, ?)",
-            [(RUN_ID, storable(name), storable(value)) for name, value in values.items()],
+            [(run_id, storable(name), storable(value)) for name, value in values.items()],
         )
     connection.executemany(
         "INSERT INTO runConfig VALUES (?, ?, ?, ?)",
         [
-            (RUN_ID, storable(key), storable(value), order)
+            (run_id, storable(key), storable(value), order)
             for order, (key, value) in enumerate(identity.settings)
         ],
     )

@@ -7,6 +7,7 @@ counts are called `fates`.
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from gradysim.results.quantity import Average, Scalar, recorded
@@ -120,9 +121,9 @@ def loss_shares(outcomes: Outcomes) -> dict[str, float]:
 
 
 def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[Average]:
-    ratios = dict(_ratios(counts))
-    if "delivered" in ratios:
-        yield Average(f"{what} delivered", ratios["delivered"])
+    total = sum(counts.values()) - sum(counts.get(outcome, 0) for outcome in _UNDECIDED)
+    if total and "delivered" in counts:
+        yield Average(f"{what} delivered", counts["delivered"] / total)
 
 
 def _ratios(counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:
@@ -134,6 +135,9 @@ def _ratios(counts: Mapping[str, int]) -> Iterator[tuple[str, float]]:
 
 def decided(counts: Mapping[str, int]) -> dict[str, int]:
     """Return the counts by readable names of outcomes, without those still in progress."""
-    return {
-        outcome.replace("_", " "): count for outcome, count in counts.items() if outcome not in _UNDECIDED
-    }
+    return {_readable(outcome): count for outcome, count in counts.items() if outcome not in _UNDECIDED}
+
+
+@cache
+def _readable(outcome: str) -> str:
+    return outcome.replace("_", " ")

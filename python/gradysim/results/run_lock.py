@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from gradysim.results.durable import finished_name
+from gradysim.results.pack import PACKS
 
 LOCK_FILE = ".gradysim.lock"
 
@@ -54,17 +55,36 @@ def run_locked(directory: Path, name: str) -> Iterator[None]:
         yield
 
 
+@contextlib.contextmanager
+def all_runs_locked(directory: Path) -> Iterator[None]:
+    """Hold the locks of all runs in a directory. Runs that other processes begin meanwhile wait.
+
+    Raises RunLockedError if another process computes a run in the directory.
+    """
+    file = directory / LOCK_FILE
+    with _locked(file, _ALL):
+        try:
+            yield
+        finally:
+            file.unlink(missing_ok=True)
+
+
 def remove_left_over_files(directory: Path) -> None:
-    """Remove unfinished files and the lock file, unless a process computes a run in the directory."""
+    """Remove unfinished files and packs, and the lock file, unless a run is computed in the directory."""
     try:
-        entries = list(os.scandir(directory))
-        left_over = [Path(entry) for entry in entries if finished_name(entry.name) is not None]
-        if left_over or any(entry.name == LOCK_FILE for entry in entries):
-            with _locked(directory / LOCK_FILE, _ALL):
-                for file in (*left_over, directory / LOCK_FILE):
+        left_over = [*_unfinished_files(directory), *_unfinished_files(directory / PACKS)]
+        if left_over or (directory / LOCK_FILE).exists():
+            with all_runs_locked(directory):
+                for file in left_over:
                     file.unlink(missing_ok=True)
     except (RunLockedError, OSError):  # the directory is missing or not writable
         return
+
+
+def _unfinished_files(directory: Path) -> list[Path]:
+    if not directory.is_dir():
+        return []
+    return [Path(entry) for entry in os.scandir(directory) if finished_name(entry.name) is not None]
 
 
 @contextlib.contextmanager

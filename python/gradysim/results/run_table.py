@@ -10,10 +10,12 @@ from typing import Any, Literal
 
 from gradysim.protocol.plain_value import as_float
 from gradysim.results.files import read_run_file
-from gradysim.results.means import RunSummary, read_results
 from gradysim.results.omnetpp_reader import read_vectors
+from gradysim.results.outcomes import Outcomes
 from gradysim.results.quantity import Names, name_filter, quantities
 from gradysim.results.result import RunResult
+from gradysim.results.result_dir import read_results
+from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import ConfigError, nearest
 
 Per = Literal["run", "node", "time"]
@@ -26,7 +28,7 @@ _TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs",
 
 
 def runs(directory: str | os.PathLike[str]) -> "Runs":
-    """Return the runs in the directory of `gradysim run --result-dir`, without interrupted ones.
+    """Return the runs in the directory of `gradysim run --result-dir` or in a pack, without interrupted ones.
 
     Raises ConfigError for a damaged file, and OSError.
     """
@@ -65,7 +67,8 @@ class Runs:
     @property
     def quantities(self) -> list[str]:
         """Names of the numbers of any run: those of `gradysim means`, then `cpu_s`, `events` and so on."""
-        return list(dict.fromkeys(name for run in self for name in run.numbers))
+        conditions = {id(run.conditions): run.conditions for run in self}.values()
+        return list(dict.fromkeys(name for each in conditions for name in each.quantities))
 
     def values(self, variable: str) -> list[Any]:
         """Return the different values of a variable, in the order of the runs.
@@ -159,7 +162,7 @@ class Runs:
         _check(names, known)
         chosen = list(filter(name_filter(names), known))
         for run in self:
-            yield run, {name: run.numbers.get(name) for name in chosen}
+            yield run, {name: run.number(name) for name in chosen}
 
     def _node_rows(self, names: Names | None) -> Iterator[tuple[RunSummary, Mapping[str, Any]]]:
         found = [(run, node) for run in self for node in nodes_of(run)]
@@ -182,6 +185,12 @@ def nodes_of(run: RunSummary) -> list[dict[str, Any]]:
     """Return the nodes in a run's file. Raises OSError, and ValueError if it is damaged."""
     nodes: list[dict[str, Any]] = read_run_file(run.file)["nodes"]
     return nodes
+
+
+def fates_of(run: RunSummary) -> Outcomes:
+    """Return the outcomes in a run's file. Raises OSError, and ValueError if it is damaged."""
+    fates: Outcomes = read_run_file(run.file)["fates"]
+    return fates
 
 
 def _check(names: Names | None, known: Iterable[str]) -> None:

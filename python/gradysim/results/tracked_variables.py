@@ -6,6 +6,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from gradysim.protocol.plain_value import as_float, key_text
@@ -14,6 +15,13 @@ from gradysim.results.quantity import Scalar, recorded
 
 Tracked = Mapping[str, Any]
 """{name: value} at one node, as JSON objects have them."""
+
+
+REASONS = ("nan or None", "inf", "-inf", "too large", "no number", "missing")
+"""What a variable is at a node if it is not a finite number. JSON objects do not distinguish NaN and None."""
+
+_NUMBERS = {"inf", "-inf", "too large"}
+"""Numbers that have no part in a mean."""
 
 
 def tracked_scalars(tracked: Mapping[str, object], node: str) -> Iterator[Scalar]:
@@ -35,26 +43,19 @@ class TrackedVariable:
     mean: float | None
     others: Mapping[str, int]
 
+    @property
+    def is_numeric(self) -> bool:
+        """Whether it is a number at any node, even if only an infinite one."""
+        return self.mean is not None or not _NUMBERS.isdisjoint(self.others)
 
-@dataclass(frozen=True)
-class TrackedGroup:
-    """The tracked variables of the nodes of a group."""
 
-    node_count: int
-    variables: Mapping[str, TrackedVariable]
-
-    @classmethod
-    def of(cls, nodes: list[Tracked]) -> "TrackedGroup":
-        """Return those of its nodes."""
-        variables = {}
-        for name in dict.fromkeys(name for tracked in nodes for name in tracked):
-            numbers, others = numbers_and_others(nodes, name)
-            variables[name] = TrackedVariable(mean_of(numbers) if numbers else None, Counter(others))
-        return cls(len(nodes), variables)
-
-    def variable(self, name: str) -> TrackedVariable:
-        """Return one of them, which may be missing at all nodes of this run."""
-        return self.variables.get(name) or TrackedVariable(None, {"missing": self.node_count})
+def variables_of_group(nodes: list[Tracked]) -> dict[str, TrackedVariable]:
+    """Return the tracked variables at the nodes of a group, by name."""
+    variables = {}
+    for name in dict.fromkeys(name for tracked in nodes for name in tracked):
+        numbers, others = numbers_and_others(nodes, name)
+        variables[name] = TrackedVariable(mean_of(numbers) if numbers else None, Counter(others))
+    return variables
 
 
 def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Tracked]]:
@@ -65,27 +66,16 @@ def tracked_by_group(nodes: Iterable[Mapping[str, Any]]) -> dict[str, list[Track
     return groups
 
 
+@cache
 def group_of(node: str) -> str:
     """Return `uavs[*]` for `uavs[0]`; the name itself if it has no index."""
     return re.sub(r"\[\d+\]$", "[*]", node)
 
 
-def numeric_variables(groups: Mapping[str, Iterable[Tracked]]) -> dict[tuple[str, str], None]:
-    """Return (group, name) of each variable that is a number at any node, even if only an infinite one."""
-    return {
-        (group, name): None
-        for group, nodes in groups.items()
-        for tracked in nodes
-        for name in tracked
-        if _not_finite(tracked[name]) in (None, "inf", "-inf", "too large")
-    }
-
-
 def numbers_and_others(nodes: Iterable[Tracked], name: str) -> tuple[list[float], list[str]]:
     """Return the finite numbers of the variable `name` at `nodes`, and what it is at the others.
 
-    That is "inf", "-inf", "nan or None" (JSON objects do not distinguish these two), "too large" for a float,
-    "no number", or "missing" where a node does not have the variable.
+    These are `REASONS`: "too large" is too large for a float, and "missing" a node without the variable.
     """
     numbers: list[float] = []
     others: list[str] = []

@@ -1,5 +1,4 @@
 import json
-import pickle
 import sys
 from pathlib import Path
 from typing import Any
@@ -8,17 +7,14 @@ import pytest
 
 from gradysim.results.means import (
     Mean,
-    RunSummary,
-    has_files_for_omnetpp_alone,
     means,
     of_different_files,
     of_different_settings,
     read_means,
-    read_results,
     repeated,
 )
-from gradysim.results.tracked_variables import TrackedVariable
-from gradysim.scenario.errors import ConfigError
+from gradysim.results.result_dir import read_results
+from gradysim.results.run_summary import RunSummary
 
 
 def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> dict[str, Any]:
@@ -179,8 +175,14 @@ def test_settings_may_differ_with_the_values() -> None:
     assert of_different_settings(results) is None
 
 
-def test_runs_that_are_another_one_over_again_are_named() -> None:
-    results = [figures(run, seed=5, fingerprint="f") for run in range(3)]
+def written(directory: Path, *results: dict[str, Any]) -> list[RunSummary]:
+    for each in results:
+        (directory / f"{each['run']}.json").write_text(json.dumps(each))
+    return read_results(directory)
+
+
+def test_runs_that_are_another_one_over_again_are_named(tmp_path: Path) -> None:
+    results = written(tmp_path, *(result(run, seed=5, fingerprint="f") for run in range(3)))
     assert repeated(results) == [("Study-#0", "Study-#1"), ("Study-#0", "Study-#2")]
 
 
@@ -196,9 +198,9 @@ def test_runs_that_are_another_one_over_again_are_named() -> None:
         {"iterations": {"jitter": "20ms"}},
     ],
 )
-def test_a_run_that_differs_is_another_one(change: dict[str, Any]) -> None:
+def test_a_run_that_differs_is_another_one(tmp_path: Path, change: dict[str, Any]) -> None:
     equal: dict[str, Any] = {"seed": 5, "settings_hash": "a", "fingerprint": "f"}
-    assert repeated([figures(0, **equal), figures(1, **{**equal, **change})]) == []
+    assert repeated(written(tmp_path, result(0, **equal), result(1, **{**equal, **change}))) == []
 
 
 def test_runs_made_with_different_files_of_one_name_are_told() -> None:
@@ -220,12 +222,6 @@ def test_other_configurations_and_results_of_before_say_nothing_of_files() -> No
     assert of_different_files(results) is None
 
 
-def test_results_are_read_in_the_order_of_their_runs(tmp_path: Path) -> None:
-    for run in (10, 9):
-        (tmp_path / f"Study-#{run}.integrated.json").write_text(json.dumps(result(run)))
-    assert [read.run for read in read_results(tmp_path)] == [9, 10]
-
-
 def test_means_of_a_folder_by_their_names(tmp_path: Path) -> None:
     delays = {"unicast": {"mean_s": 0.1}}
     (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result(message_delays=delays)))
@@ -239,87 +235,8 @@ def test_means_of_a_folder_by_their_names(tmp_path: Path) -> None:
     assert names("heard") == names([]) == []
 
 
-def test_other_files_and_interrupted_runs_are_left_out(tmp_path: Path) -> None:
-    (tmp_path / "interrupted.json").write_text(json.dumps(result(interrupted=True)))
-    (tmp_path / "half.json").write_text('{"config": ')
-    (tmp_path / "list.json").write_text("[1]")
-    (tmp_path / "deep.json").write_text("[" * 99_999)
-    (tmp_path / "other.json").write_text('{"config": "Study"}')
-    (tmp_path / "notes.txt").write_text(json.dumps(result()))
-    (tmp_path / "binary.json").write_bytes(b"\xff\xfe")
-    (tmp_path / "folder.json").mkdir()
-    assert read_results(tmp_path) == []
-
-
-@pytest.mark.parametrize("text", ['{"config": ', "[1]", "[" * 99_999, '{"checksum": "0123456789abcdef"}'])
-def test_a_damaged_result_is_an_error_that_names_it(tmp_path: Path, text: str) -> None:
-    (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result()))
-    file = tmp_path / "Study-#1.integrated.json"
-    file.write_text(text)
-    for read in (read_results, read_means):
-        with pytest.raises(ConfigError) as raised:
-            read(tmp_path)
-        assert raised.value.file == file
-
-
-@pytest.mark.parametrize("interrupted", [True, False])
-def test_a_folder_with_any_result_has_not_only_files_for_omnetpp(tmp_path: Path, interrupted: bool) -> None:
-    assert not has_files_for_omnetpp_alone(tmp_path)
-    (tmp_path / "Study-#0.integrated.sca").touch()
-    (tmp_path / "half.json").write_text("{")
-    assert has_files_for_omnetpp_alone(tmp_path)
-    (tmp_path / "Study-#0.integrated.json").write_text(json.dumps(result(interrupted=interrupted)))
-    assert not has_files_for_omnetpp_alone(tmp_path)
-
-
-def summary_of(*tracked: dict[str, Any], **changes: Any) -> RunSummary:
-    result = {
-        "config": "Study",
-        "mode": "integrated",
-        "run": 0,
-        "iterations": {},
-        "fates": {},
-        "nodes": [
-            {"name": f"uavs[{index}]", "tracked_variables": each} for index, each in enumerate(tracked)
-        ],
-    }
-    return RunSummary.of({**result, **changes})
-
-
-def test_of_a_variable_its_mean_is_kept_and_what_is_no_number() -> None:
-    group = summary_of({"x": 1}, {"x": 4}, {"x": "inf"}, {"y": None}).groups["uavs[*]"]
-    assert group.node_count == 4
-    assert group.variable("x") == TrackedVariable(2.5, {"inf": 1, "missing": 1})
-    assert group.variable("y") == TrackedVariable(None, {"missing": 3, "nan or None": 1})
-    assert group.variable("z") == TrackedVariable(None, {"missing": 4})
-
-
-def test_a_run_of_many_nodes_takes_no_more_memory() -> None:
-    few, many = (len(pickle.dumps(summary_of(*[{"x": 1.5}] * count))) for count in (10, 1000))
-    assert many <= few + 10
-
-
-@pytest.mark.parametrize(
-    "change",
-    [{"fingerprint": "f"}, {"fates": {"messages": {}}}, {"nodes": []}],
-    ids=lambda change: next(iter(change)),
-)
-def test_what_a_run_computed_differs(change: dict[str, Any]) -> None:
-    assert summary_of({"x": 1}).computed == summary_of({"x": 1}).computed
-    assert summary_of({"x": 1}, **change).computed != summary_of({"x": 1}).computed
-
-
 def test_numbers_of_the_run_itself_are_averaged_by_name_only() -> None:
     results = [figures(run, cpu_s=cpu_s, events=7) for run, cpu_s in enumerate([1.0, 3.0])]
     assert [mean.quantity for mean in means(results)] == ["uavs[*] heard"]
     (mean,) = means(results, "cpu_s")
     assert (mean.quantity, mean.runs, mean.mean) == ("cpu_s", 2, 2)
-
-
-def test_numbers_of_a_run_by_quantity() -> None:
-    run = figures(0, (1, 3), events=7, message_delays={"unicast": {"mean_s": 0.5}})
-    assert run.numbers == {"uavs[*] heard": 2, "events": 7, "unicast messages delay in s": 0.5}
-
-
-def test_a_variable_that_no_node_has_as_a_finite_number_is_no_number_of_the_run() -> None:
-    assert figures(0, ("inf", None)).numbers == {}

@@ -1,0 +1,56 @@
+"""`gradysim pack`: the result files of a study in one file."""
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from gradysim.cli.errors import LOCKED, OK, say_mistake
+from gradysim.cli.options import Flag, ResultDirArgument
+from gradysim.cli.study import check_directory
+
+
+def pack_results(
+    directory: ResultDirArgument,
+    /,
+    *,
+    output: Annotated[
+        Path | None,
+        Parameter(alias="-o", help="The pack. Default: DIR/packs/runs.sca, where commands find it."),
+    ] = None,
+    remove: Annotated[
+        Flag, Parameter(help="Then remove the JSON files that are in the pack; with --unpack, the packs.")
+    ] = False,
+    unpack: Annotated[
+        Flag, Parameter(help="Write the JSON files of the packs, unchanged, into DIR again.")
+    ] = False,
+) -> int:
+    """Put the JSON files of a directory into one SQLite file, which other commands read in their place."""
+    from gradysim.cli.progress import waiting
+    from gradysim.results import packing
+    from gradysim.results.pack import packs_of
+    from gradysim.results.run_lock import RunLockedError
+    from gradysim.scenario.errors import ConfigError
+
+    file = output or packing.default_pack(directory)
+    try:
+        check_directory(directory)
+        with waiting(f"{'unpacking' if unpack else 'packing'} {directory}", shown=True):
+            if unpack:
+                packs = packs_of(directory) if output is None else [output]
+                count = packing.unpack(directory, packs, remove=remove)
+            else:
+                count = packing.pack(directory, file, remove=remove)
+    except RunLockedError as locked:
+        print(f"{directory}: a run is computed there: {locked}; expected its end before", file=sys.stderr)
+        return LOCKED
+    except (ConfigError, ImportError, OSError) as mistake:
+        return say_mistake(mistake)
+    runs = "run" if count == 1 else "runs"
+    if unpack:
+        print(f"unpacked {count:,} {runs} into {directory}{', and removed the packs' if remove else ''}")
+    else:
+        removed = ", and removed packed JSON files" if remove else ""
+        print(f"packed {count:,} new {runs} into {file}{removed}")
+    return OK

@@ -1,0 +1,40 @@
+"""The outputs in docs/how-to/pack-a-study.md are those of the commands."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.results import read_means
+
+GUIDE = "docs/how-to/pack-a-study.md"
+
+CodeBlocks = Callable[[str, str], list[str]]
+
+
+def test_its_commands_print_what_is_shown(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
+) -> None:
+    study, more, several, back = code_blocks(GUIDE, "sh")
+    shown = [block.splitlines() for block in code_blocks(GUIDE, "text")]
+    new, *commands = study.splitlines()
+    shell(new, tmp_path)
+    printed = shell("\n".join(commands), tmp_path)
+    assert [line.rstrip() for line in printed.splitlines()] == shown[0]
+
+    names: dict[str, Any] = {}
+    exec("\n".join(code_blocks(GUIDE, "python")), names)
+    heard = names["heard"](str(tmp_path / "results" / "packs" / "runs.sca"))
+    means = read_means(tmp_path / "results", "station heard")
+    assert sum(heard) == pytest.approx(sum(mean.runs * (mean.mean or 0) for mean in means))
+
+    assert shell(more, tmp_path).splitlines() == shown[1]
+    packed, *tables, joined = shell(several, tmp_path).splitlines()
+    assert packed == "packed 40 new runs into share1.sca"
+    assert tables[: len(tables) // 2] == tables[len(tables) // 2 :]
+    assert joined == "packed 40 new runs into all/packs/runs.sca, and removed packed JSON files"
+    assert shell(back, tmp_path).splitlines() == shown[2]
+    assert len(list((tmp_path / "results").glob("Study-*.json"))) == 40
