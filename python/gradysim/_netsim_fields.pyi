@@ -169,13 +169,16 @@ class RadioFields:
     snir_threshold: float
     """Signal to noise and interference ratio at or below which every frame is lost."""
     error_model: str
-    """How noise becomes lost frames."""
+    """How noise becomes lost frames; "": only snirThreshold counts."""
     ber_table_file: str
     """CSV file of packet success over SNIR, relative to the .ini file; the format is this project's own
     (docs/how-to/choose-a-receiver.md)."""
     snir_mode: str
     """What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of
     the frame, without the preamble (docs/how-to/choose-a-receiver.md)."""
+    collision_model: str
+    """When interference destroys a frame; snir: by its SNIR; overlap: always, if the interference
+    reaches the sensitivity."""
     noise_figure: float
     """Noise that the receiver adds."""
     preamble_detection: str
@@ -219,6 +222,10 @@ class MediumFields:
     @property
     def typename(self) -> str: ...
     """Model of the air: path loss and noise, or a circle."""
+    timing: str
+    """What takes time; instant: nothing; airtime: frames and their way at the speed of light;
+    channelAccess: waiting until the channel around the sender is free, too, so that frames never
+    collide."""
     background_noise: str
     """Noise in a channel: one power for all, or that of the receiver's bandwidth."""
     background_noise_w: float

@@ -7,14 +7,15 @@ namespace {
 
 constexpr Field fields[] = {
     {"typename", &member<&InterfaceConfig::type_name>, "typename", one_of(interface_type_names),
-     "Network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults"},
+     "Network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
+     ReadBy{}},
 };
 
-// An error model fits one modulation only.
+// An error model fits one modulation only. No errors fit all.
 void check_error_model(const std::string& interface_type, const std::string& error_model) {
     const std::string own = RadioConfig(interface_type).error_model;
     const bool is_80211 = interface_type == ieee80211_interface;
-    if (error_model == own || (is_80211 && error_model == ber_table_error_model)) {
+    if (error_model.empty() || error_model == own || (is_80211 && error_model == ber_table_error_model)) {
         return;
     }
     std::string expected = "expected \"" + own;

@@ -36,6 +36,10 @@ constexpr ReadBy with_dielectric{"medium.obstacle_loss", dielectric, dielectric[
 constexpr Field fields[] = {
     {"typename", &member<&MediumConfig::type_name>, "typename", one_of(medium_type_names),
      "Model of the air: path loss and noise, or a circle", ReadBy{}},
+    {NETSIM_FIELD(MediumConfig, timing), "timing", one_of(timing_names),
+     "what takes time; instant: nothing; airtime: frames and their way at the speed of light; channelAccess:"
+     " waiting until the channel around the sender is free, too, so that frames never collide",
+     with_unit_disk},
     {NETSIM_FIELD(MediumConfig, background_noise), "backgroundNoise.typename", one_of(background_noise_names),
      "Noise in a channel: one power for all, or that of the receiver's bandwidth"},
     {NETSIM_FIELD(MediumConfig, background_noise_w), "backgroundNoise.power", level(), "noise in the channel",

@@ -23,6 +23,12 @@ inline constexpr std::string_view unit_disk_medium = "UnitDiskRadioMedium";
 
 inline constexpr std::array medium_type_names{ieee80211_scalar_medium, ieee802154_scalar_medium,
                                               unit_disk_medium};
+inline constexpr ReadBy with_unit_disk{"medium.typename", std::span(medium_type_names).last(1),
+                                       unit_disk_medium};
+// MediumConfig::timing of the unit disk: what takes time.
+inline constexpr std::string_view instant_timing = "instant";
+inline constexpr std::string_view channel_access_timing = "channelAccess";
+inline constexpr std::array timing_names{instant_timing, std::string_view("airtime"), channel_access_timing};
 // With other media, nothing reads the keys of radio, MAC and antenna.
 inline constexpr ReadBy with_radios{"medium.typename", std::span(medium_type_names).first(2), ""};
 // See path_loss.hpp, two_ray.hpp and fading.hpp. The last four are free space with random gains (Fading).
@@ -43,6 +49,8 @@ struct MediumConfig {
     explicit MediumConfig(std::string medium_type_name = std::string(ieee80211_scalar_medium));
 
     std::string type_name;  // `typename` in Python
+
+    std::string timing = "instant";  // mac/unit_disk_interface.hpp
 
     std::string path_loss = "FreeSpacePathLoss";
     double alpha = 2;

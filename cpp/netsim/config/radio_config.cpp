@@ -38,7 +38,7 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(RadioConfig, snir_threshold), "receiver.snirThreshold", ratio(),
      "Signal to noise and interference ratio at or below which every frame is lost"},
     {NETSIM_FIELD(RadioConfig, error_model), "receiver.errorModel.typename", one_of(error_model_names),
-     "How noise becomes lost frames"},
+     "How noise becomes lost frames; \"\": only snirThreshold counts"},
     {NETSIM_FIELD(RadioConfig, ber_table_file), "receiver.errorModel.berTableFile", file_name(),
      "CSV file of packet success over SNIR, relative to the .ini file; the format is this project's own"
      " (docs/how-to/choose-a-receiver.md)",
@@ -47,6 +47,9 @@ constexpr Field fields[] = {
      "What decides about a frame: its lowest SNIR, or the SNIR of each stretch of time for its part of the "
      "frame,"
      " without the preamble (docs/how-to/choose-a-receiver.md)"},
+    {NETSIM_FIELD(RadioConfig, collision_model), "receiver.collisionModel", one_of(collision_model_names),
+     "When interference destroys a frame; snir: by its SNIR; overlap: always, if the interference reaches the"
+     " sensitivity"},
     {NETSIM_FIELD(RadioConfig, noise_figure), "receiver.noiseFigure", ratio().at_least(1),
      "noise that the receiver adds", with_thermal_noise},
     {NETSIM_FIELD(RadioConfig, preamble_detection), "receiver.preambleDetection.typename",

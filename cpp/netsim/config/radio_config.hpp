@@ -16,10 +16,12 @@
 namespace netsim {
 
 inline constexpr std::string_view ber_table_error_model = "Ieee80211BerTableErrorModel";
-inline constexpr std::array<std::string_view, 3> error_model_names{
-    "Ieee80211NistErrorModel", ber_table_error_model, "Ieee802154ErrorModel"};
+inline constexpr std::array<std::string_view, 4> error_model_names{
+    "Ieee80211NistErrorModel", ber_table_error_model, "Ieee802154ErrorModel", ""};
 inline constexpr std::string_view snir_by_chunks = "chunks";
 inline constexpr std::array<std::string_view, 2> snir_mode_names{"min", snir_by_chunks};
+inline constexpr std::string_view collision_by_overlap = "overlap";
+inline constexpr std::array<std::string_view, 2> collision_model_names{"snir", collision_by_overlap};
 inline constexpr std::array<std::string_view, 2> preamble_detection_names{"", "ThresholdPreambleDetection"};
 inline constexpr std::array<std::string_view, 2> frame_capture_names{"", "SimpleFrameCapture"};
 
@@ -42,6 +44,8 @@ struct RadioConfig {
     double noise_figure = 5.0118723362727229;  // 7 dB
     std::string snir_mode = "min";             // phy/reception.hpp
     std::string ber_table_file;                // phy/ber_table.hpp
+
+    std::string collision_model = "snir";  // phy/reception.hpp
 
     std::string preamble_detection;                            // "": none
     double preamble_threshold = 2.5118864315095801;            // 4 dB

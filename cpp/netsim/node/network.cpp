@@ -25,6 +25,7 @@ MediumConfig validated(MediumConfig config) {
 Network::Network(const MediumConfig& medium, std::uint64_t seed, Culling culling)
     : seed_(seed),
       perfect_channel_(validated(medium).type_name == unit_disk_medium),
+      timing_(medium.timing),
       medium_(simulator_, medium, frame_fates_, fingerprint_, culling, seed) {}
 
 Node& Network::add_node(const NodeConfig& config) {
@@ -50,7 +51,8 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
                                                           const Node& node) {
     if (perfect_channel_) {
         return std::make_unique<UnitDiskInterface>(simulator_, unit_disk_, id,
-                                                   config.radio.communication_range_m, node.trajectory(),
+                                                   config.radio.communication_range_m,
+                                                   UnitDiskTiming(timing_, config), node.trajectory(),
                                                    frame_fates_, fingerprint_);
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
@@ -115,6 +117,7 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     const RadioConfig& radio = config.radio;
     if (perfect_channel_) {
         check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
+        const UnitDiskTiming checked(timing_, config);
         return;
     }
     const double noise_w = medium_.background_noise().power_w(radio.bandwidth_hz, radio.noise_figure);

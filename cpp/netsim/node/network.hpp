@@ -122,6 +122,7 @@ private:
     NetworkContext context_{simulator_, fingerprint_};
     FrameFates frame_fates_;
     bool perfect_channel_;
+    std::string timing_;  // of a perfect channel
     Medium medium_;
     UnitDiskChannel unit_disk_;
     SharedModels<RadioConfig, RadioModel> radio_models_;

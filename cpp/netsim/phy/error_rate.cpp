@@ -225,9 +225,13 @@ double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_
 const ErrorModel& error_model(std::string_view name) {
     static const NistErrorModel nist;
     static const OqpskErrorModel oqpsk;
+    static const NoErrorModel none;
     check_name("radio.error_model", name, error_model_names);
     if (name == "Ieee802154ErrorModel") {
         return oqpsk;
+    }
+    if (name.empty()) {
+        return none;
     }
     NETSIM_ASSERT(name == "Ieee80211NistErrorModel");
     return nist;

@@ -64,6 +64,15 @@ public:
     static double bit_error_rate(const Mode& mode, double snir);
 };
 
+// A receiver without bit errors: only the threshold of RadioConfig::snir_threshold decides.
+class NoErrorModel final : public ErrorModel {
+public:
+    double success_probability(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const override {
+        return 1;
+    }
+    double min_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const override { return 1; }
+};
+
 // The models without parameters, by RadioConfig::error_model. Throws ConfigError for other names.
 const ErrorModel& error_model(std::string_view name);
 // Any model, read from its file if it has one. Throws ConfigError for an unknown name or an invalid

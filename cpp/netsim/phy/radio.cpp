@@ -109,7 +109,7 @@ void Radio::end_detection(const Transmission* transmission) {
         candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
     const auto snir = [&] {
         const auto& steps = interference_in(arrival, {arrival.start, simulator().now()}).steps();
-        return arrival.power_w / (model_.reception.noise_w + steps.back().power_w);
+        return model_.reception.snir(arrival, steps.back().power_w);
     };
     if (!is_strongest || !model_.preamble_detection.detects(arrival.power_w, snir())) {
         book(*transmission, FrameFate::preamble_undetected);

@@ -18,6 +18,9 @@ RadioModel::RadioModel(const RadioConfig& config, Medium& medium_, std::uint64_t
       error_model_(make_error_model(config)) {
     reception = {error_model_.get(), config.snir_threshold,
                  medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)};
+    if (config.collision_model == collision_by_overlap) {
+        reception.collision_w = config.sensitivity_w;
+    }
 }
 
 }  // namespace netsim

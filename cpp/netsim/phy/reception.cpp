@@ -17,14 +17,14 @@ Period period_of(FramePart part, const Arrival& arrival) {
 }
 
 double ReceptionModel::success(const Arrival& arrival, double interference_w) const {
-    const double snir = arrival.power_w / (noise_w + interference_w);
+    const double snir = this->snir(arrival, interference_w);
     return snir > snir_threshold ? errors->success_probability(*arrival.transmission->mode, snir,
                                                                arrival.transmission->psdu_bytes)
                                  : 0;
 }
 
 bool ReceptionModel::survives(double draw, const Arrival& arrival, double interference_w) const {
-    const double snir = arrival.power_w / (noise_w + interference_w);
+    const double snir = this->snir(arrival, interference_w);
     if (!(snir > snir_threshold)) {
         return false;
     }
@@ -56,7 +56,7 @@ double ReceptionModel::success_undisturbed(FramePart part, const Arrival& arriva
 }
 
 double ReceptionModel::log_success(FramePart part, const Arrival& arrival, double interference_w) const {
-    const double snir = arrival.power_w / (noise_w + interference_w);
+    const double snir = this->snir(arrival, interference_w);
     if (!(snir > snir_threshold)) {
         return -std::numeric_limits<double>::infinity();
     }

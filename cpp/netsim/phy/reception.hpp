@@ -12,6 +12,8 @@
 // is lost if its SNIR is at or below the threshold at any time.
 #pragma once
 
+#include <limits>
+
 #include "netsim/medium/arrival.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/phy/error_rate.hpp"
@@ -32,12 +34,19 @@ struct ReceptionModel {
     const ErrorModel* errors = nullptr;
     double snir_threshold = 0;
     double noise_w = 0;
+    // Interference from which on every frame is lost, whatever its power.
+    double collision_w = std::numeric_limits<double>::infinity();
+
+    // A linear ratio; 0 if the interference destroys every frame.
+    double snir(const Arrival& arrival, double interference_w) const {
+        return interference_w < collision_w ? arrival.power_w / (noise_w + interference_w) : 0;
+    }
 
     // Of the whole frame, in mode "min", with that maximum interference.
     double success(const Arrival& arrival, double interference_w) const;
     // A cheap lower bound for that with any interference up to `max_interference_w`.
     double min_success(const Arrival& arrival, double max_interference_w) const {
-        const double snir = arrival.power_w / (noise_w + max_interference_w);
+        const double snir = this->snir(arrival, max_interference_w);
         return snir > snir_threshold
                    ? errors->min_success(*arrival.transmission->mode, snir, arrival.transmission->psdu_bytes)
                    : 0;

@@ -11,6 +11,7 @@
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
     gradysim import FILE.ini [-o DIR]
     gradysim pack DIR [-o FILE] [--remove] [--unpack]
+    gradysim ladder FILE.ini [-c CONFIG] --metric QUANTITY ...
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -34,6 +35,7 @@ from gradysim.cli.compare import compare
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.import_file import import_file
 from gradysim.cli.keys import list_keys
+from gradysim.cli.ladder import climb_ladder
 from gradysim.cli.means import print_means
 from gradysim.cli.new import make_project
 from gradysim.cli.pack import pack_results
@@ -84,6 +86,7 @@ app.command(print_means, name="means")
 app.command(compare)
 app.command(draw_figure, name="plot")
 app.command(pack_results, name="pack")
+app.command(climb_ladder, name="ladder")
 app.command(list_keys, name="keys")
 app.command(import_file, name="import")
 app.command(calibrate_power, name="calibrate")

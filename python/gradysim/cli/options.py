@@ -1,5 +1,6 @@
 """The options of the commands, each declared once: its name, type, default and help."""
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -278,6 +279,25 @@ class ViewOptions:
 
     browser: Annotated[bool, Parameter(negative="--no-browser", show_default=False)] = True
     """Open the page. Otherwise only its address is printed."""
+
+
+@Parameter(name="*")
+@dataclass(frozen=True, kw_only=True)
+class CampaignOptions:
+    """Options of the commands about levels of realism."""
+
+    config: ConfigOption = "General"
+
+    run_count: Annotated[Integer | None, Parameter(name=("--repeat", "-n"))] = None
+    """Number of runs at each level, each with its own seed; by default the file's `repeat`."""
+
+    settings: SetOption = ()
+
+    seed: Integer | None = None
+    """As in `gradysim run`."""
+
+    jobs: Annotated[Integer, Parameter(alias="-j")] = os.cpu_count() or 1
+    """Number of runs at the same time; by default one for each core."""
 
 
 def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":

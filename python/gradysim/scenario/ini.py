@@ -24,7 +24,7 @@ from gradysim.scenario.regular_files import check_regular
 GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
 
-_HEADING = re.compile(r"\[\s*(?:Config\s+)?([^\s\[\]]+)\s*\]")
+_HEADING = re.compile(r"\[\s*(?:(?P<kind>Config|Level)\s+)?(?P<name>[^\s\[\]]+)\s*\]")
 
 _DEEPEST = 100
 """Limit for nested includes; Python's stack has such a limit, too."""
@@ -64,10 +64,16 @@ class Section:
 
 @dataclass
 class IniFile:
-    """An .ini file with all that it includes. It always has a section General."""
+    """An .ini file with all that it includes. It always has a section General.
+
+    Attributes:
+        sections: Configurations and General, by name.
+        levels: `[Level NAME]`: lines that a level of `gradysim ladder` adds to a configuration, by name.
+    """
 
     file: Path
     sections: dict[str, Section]
+    levels: dict[str, Section] = field(default_factory=dict)
 
 
 def read_ini(file: Path) -> IniFile:
@@ -77,7 +83,7 @@ def read_ini(file: Path) -> IniFile:
         ConfigError: A file cannot be read, or lines are not understood; all of them are reported.
     """
     reader = _Reader(file)
-    reader.read(file, GENERAL, None, ())
+    reader.read(file, reader.ini.sections[GENERAL], None, ())
     reader.errors.raise_all()
     return reader.ini
 
@@ -128,9 +134,9 @@ class _Reader:
         self.errors = ErrorCollector()
         self._bytes = self._files = 0
 
-    def read(self, file: Path, section: str, asked_by: Source | None, including: tuple[Path, ...]) -> None:
+    def read(self, file: Path, section: Section, asked_by: Source | None, including: tuple[Path, ...]) -> None:
         """Read one file into `section`, up to its first heading."""
-        headings: dict[str, int] = {}
+        headings: dict[tuple[str, str], int] = {}
         text = self._text_of(file, asked_by)  # before `resolve`, which fails for names that no file can have
         resolved = file.resolve()
         if resolved in including:
@@ -146,29 +152,30 @@ class _Reader:
                     included = file.parent / match.group(1).strip().strip('"')
                     self.read(included, section, source, (*including, resolved))
                 else:
-                    self.ini.sections[section].entries.append(_entry(line, source))
+                    section.entries.append(_entry(line, source))
 
-    def _open_section(self, line: str, source: Source, headings: dict[str, int]) -> str:
+    def _open_section(self, line: str, source: Source, headings: dict[tuple[str, str], int]) -> Section:
         match = _HEADING.fullmatch(line)
         if not match or line.split() == ["[Config", "General]"]:
             problem = f"`{shortened(line)}` is not a heading"
-            raise ConfigError(problem, source, expected="[General] or [Config NAME]")
-        name = match.group(1)
+            raise ConfigError(problem, source, expected="[General], [Config NAME] or [Level NAME]")
+        kind, name = match["kind"] or "Config", match["name"]
         if {"/", "\\"} & set(name):
             raise ConfigError(
                 f"`{shortened(name)}` cannot be part of a file name", source, expected="no `/` and no `\\`"
             )
-        if name in headings:
+        if (kind, name) in headings:
             raise ConfigError(
-                f"section `{shortened(name)}` is already at line {headings[name]}",
+                f"section `{shortened(name)}` is already at line {headings[kind, name]}",
                 source,
                 expected="each section once in a file",
             )
-        headings[name] = source.line
-        section = self.ini.sections.setdefault(name, Section(name, source))
+        headings[kind, name] = source.line
+        sections = self.ini.levels if kind == "Level" else self.ini.sections
+        section = sections.setdefault(name, Section(name, source))
         if section.source.line == 0:
             section.source = source
-        return name
+        return section
 
     def _text_of(self, file: Path, asked_by: Source | None) -> str:
         self._files += 1

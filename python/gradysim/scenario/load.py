@@ -98,10 +98,12 @@ class Study(Sequence[Scenario]):
         seed: int | None,
         names: ArgumentNames,
         part: slice = slice(None),
+        levels: Sequence[str] = (),
     ) -> None:
         """Read and check it; arguments and exceptions are those of `load_scenarios`.
 
-        Of the wanted runs, only those at the positions `part` are read, which may be none.
+        Of the wanted runs, only those at the positions `part` are read, which may be none. `levels` are names
+        of sections `[Level NAME]`, whose lines precede those of the configuration.
         """
         if not isinstance(config, str):
             raise TypeError(f"{names.config} {config!r}: expected the name of a configuration")
@@ -109,8 +111,8 @@ class Study(Sequence[Scenario]):
         self.config = config
         self._file = file = Path(file)
         ini = read_ini(file)
-        self._sections = tuple(search_order(ini, config))
-        self._source = source = self._sections[0].source
+        self._sections = tuple(search_order(ini, config, levels))
+        self._source = source = ini.sections[config].source
         written = lines = entries_in_order(read_overrides(file, overrides, names.overrides), self._sections)
         errors = ErrorCollector()
         for entry in lines:

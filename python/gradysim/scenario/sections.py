@@ -13,12 +13,23 @@ _MAX_NAMES = 20
 """Configurations that a message lists."""
 
 
-def search_order(ini: IniFile, config: str) -> list[Section]:
-    """Return the configuration's own section, then its bases by C3 linearization, then [General].
+def search_order(ini: IniFile, config: str, levels: Sequence[str] = ()) -> list[Section]:
+    """Return the levels, the configuration's own section, its bases by C3 linearization, then [General].
+
+    The last level comes first.
 
     Raises:
-        ConfigError: The configuration does not exist, it is abstract, or its bases cannot be ordered.
+        ConfigError: The configuration or a level does not exist, the configuration is abstract, or its bases
+            cannot be ordered.
     """
+    for level in levels:
+        if level not in ini.levels:
+            raise ConfigError(
+                f"no level `{level}`",
+                Source(ini.file, 0),
+                expected=f"a section [Level {level}]",
+                suggestion=nearest(level, ini.levels),
+            )
     if config not in ini.sections:
         names = config_names(ini)
         raise ConfigError(
@@ -36,7 +47,10 @@ def search_order(ini: IniFile, config: str) -> list[Section]:
             expected=f"one of {', '.join(heirs) or 'those that extend it'}",
         )
     names = [name for name in _linearize(ini, config, (), {}) if name != GENERAL]
-    return [ini.sections[name] for name in [*names, GENERAL]]
+    return [
+        *(ini.levels[level] for level in reversed(levels)),
+        *(ini.sections[name] for name in [*names, GENERAL]),
+    ]
 
 
 def entries_in_order(overrides: Iterable[Entry], sections: Iterable[Section]) -> list[Entry]:

@@ -51,6 +51,14 @@ TEST(InterfaceConfig, TheErrorModelHasToFitTheType) {
               "\"Ieee80211BerTableErrorModel\" for an Ieee80211Interface");
 }
 
+TEST(InterfaceConfig, NoErrorModelFitsEachType) {
+    for (const std::string_view type : interface_type_names) {
+        InterfaceConfig config{std::string(type)};
+        config.radio.error_model = "";
+        EXPECT_NO_THROW(config.validate()) << type;
+    }
+}
+
 TEST(InterfaceConfig, TheBandwidthHasToFitTheBitRatesOfTheOperationMode) {
     InterfaceConfig config;
     for (const double fitting_hz : {20e6, 22e6}) {

@@ -177,5 +177,122 @@ TEST_F(UnitDisk, MessagesThatAnswerEachOtherWithoutEndAreAnError) {
     }
 }
 
+MediumConfig unit_disk_with(std::string_view timing) {
+    MediumConfig config{std::string(unit_disk_medium)};
+    config.timing = timing;
+    return config;
+}
+
+class UnitDiskWithTime : public testing::Test {
+protected:
+    explicit UnitDiskWithTime(std::string_view timing) : network(unit_disk_with(timing), 1) {}
+
+    Recorder& add_node(double x, int queue_capacity = 100) {
+        NodeConfig config("node");
+        config.initial_position = {x, 0, 0};
+        config.wlan[0].radio.communication_range_m = 1000;
+        config.wlan[0].mac.queue_capacity = queue_capacity;
+        config.mobility.telemetry_interval_s = 0;
+        return test::add_recorder(network, config);
+    }
+    void run() {
+        network.initialize();
+        network.run_until(s(1));
+    }
+    // Of the frame of a message of 100 B at 24 Mbps: ⌈(16 + 8 · 164 + 6) / 96⌉ = 14 symbols of 4 µs.
+    static constexpr SimTime airtime = SimTime::from_us(20 + 14 * 4 + 6);
+    const std::string text = std::string(100, 'x');
+
+    Network network;
+};
+
+class UnitDiskWithAirtime : public UnitDiskWithTime {
+protected:
+    UnitDiskWithAirtime() : UnitDiskWithTime("airtime") {}
+};
+
+TEST_F(UnitDiskWithAirtime, DeliversAfterTheFrameAndItsWay) {
+    Recorder& sender = add_node(0);
+    const Recorder& receiver = add_node(299.792458);
+    sender.on_initialize = [this](Recorder& self) { self.broadcast(text); };
+    run();
+    ASSERT_EQ(receiver.packets.size(), 1U);
+    EXPECT_EQ(receiver.packets[0].time, airtime + SimTime::from_us(1));
+}
+
+TEST_F(UnitDiskWithAirtime, FramesOfOneSenderOverlap) {
+    Recorder& sender = add_node(0);
+    const Recorder& receiver = add_node(299.792458);
+    sender.on_initialize = [this](Recorder& self) {
+        self.broadcast(text);
+        self.broadcast(text);
+    };
+    run();
+    ASSERT_EQ(receiver.packets.size(), 2U);
+    EXPECT_EQ(receiver.packets[0].time, receiver.packets[1].time);
+}
+
+class UnitDiskWithAccess : public UnitDiskWithTime {
+protected:
+    UnitDiskWithAccess() : UnitDiskWithTime("channelAccess") {}
+
+    static constexpr SimTime difs = SimTime::from_us(50);
+};
+
+TEST_F(UnitDiskWithAccess, SendersInRangeTakeTurns) {
+    const auto send_two = [this](Recorder& self) {
+        self.broadcast(text + std::to_string(self.node.id()));
+        self.broadcast(text + std::to_string(self.node.id()));
+    };
+    add_node(0).on_initialize = send_two;
+    add_node(0).on_initialize = send_two;
+    const Recorder& receiver = add_node(0);
+    run();
+    std::string senders;
+    for (const Recorder::Told& packet : receiver.packets) {
+        senders += packet.text.back();
+    }
+    EXPECT_EQ(senders, "0101");
+    EXPECT_EQ(receiver.packets[1].time - receiver.packets[0].time, airtime + difs);
+}
+
+TEST_F(UnitDiskWithAccess, HiddenSendersDoNotCollide) {
+    const auto send = [this](Recorder& self) { self.broadcast(text); };
+    add_node(-900).on_initialize = send;
+    const Recorder& between = add_node(0);
+    add_node(900).on_initialize = send;
+    run();
+    EXPECT_EQ(between.packets.size(), 2U);
+    EXPECT_LT(between.packets[1].time, airtime * 2);
+}
+
+TEST_F(UnitDiskWithAccess, AnAcknowledgedFrameOccupiesTheChannelUntilItsAckHasEnded) {
+    Recorder& sender = add_node(0);
+    const Recorder& receiver = add_node(0);
+    sender.on_initialize = [this](Recorder& self) {
+        self.send(1, text);
+        self.send(1, text);
+    };
+    run();
+    // SIFS, and 14 B at 24 Mbps: 2 symbols.
+    const SimTime response = SimTime::from_us(10 + 20 + 2 * 4 + 6);
+    EXPECT_EQ(receiver.packets[1].time - receiver.packets[0].time, airtime + response + difs);
+}
+
+TEST_F(UnitDiskWithAccess, WhatDoesNotFitIntoTheQueueIsDropped) {
+    Recorder& sender = add_node(0, 2);
+    const Recorder& receiver = add_node(0);
+    sender.on_initialize = [this](Recorder& self) {
+        for (int i = 0; i < 5; ++i) {
+            self.broadcast(text);
+        }
+    };
+    run();
+    EXPECT_EQ(receiver.packets.size(), 2U);
+    const auto counts = network.message_fates().counts(MessageKind::broadcast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::queue_overflow)], 3U);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::sent)], 2U);
+}
+
 }  // namespace
 }  // namespace netsim

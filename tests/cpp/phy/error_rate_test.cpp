@@ -308,6 +308,11 @@ TEST(ErrorModel, EveryNameIsAModelOfItsOwn) {
     }
 }
 
+TEST(ErrorModel, WithoutAModelNoFrameIsLostToNoise) {
+    EXPECT_EQ(error_model("").success_probability(mode(54), 1e-6, 2304), 1);
+    EXPECT_EQ(error_model("").min_success(mode(54), 1e-6, 2304), 1);
+}
+
 TEST(ErrorModel, UnknownNameIsAnError) {
     EXPECT_THROW(error_model("Ieee80211YansErrorModel"), ConfigError);
 }

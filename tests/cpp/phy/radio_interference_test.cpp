@@ -1,5 +1,6 @@
 // Frames that overlap with a locked frame: when they count, and which nodes are interferers.
 #include <map>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -126,6 +127,33 @@ TEST_F(TouchingFrames, APicosecondMoreIsOne) {
     arrives(*hidden, us(50), us(50) + SimTime::from_ps(1));
     air.run();
     EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::interference), 1U);
+}
+
+// A weak interferer, with an SNIR of 5.
+class CollisionModel : public test::RadioAmongSenders {
+protected:
+    std::uint64_t received(std::string_view model, double interferer_w) {
+        RadioConfig config;
+        config.sensitivity_w = sensitivity_w;
+        config.collision_model = model;
+        BareRadio& receiver = add_receiver(config);
+        arrives(add_sender(strong_w), us(100), us(100));
+        arrives(add_sender(interferer_w), us(150), us(100));
+        air.run();
+        return receiver.log.received_from.size();
+    }
+};
+
+TEST_F(CollisionModel, BySnirWeakInterferenceIsBearable) {
+    EXPECT_EQ(received("snir", strong_w / 5), 1U);
+}
+
+TEST_F(CollisionModel, ByOverlapItIsNot) {
+    EXPECT_EQ(received("overlap", strong_w / 5), 0U);
+}
+
+TEST_F(CollisionModel, ByOverlapInterferenceBelowTheSensitivityIsBearable) {
+    EXPECT_EQ(received("overlap", sensitivity_w * 0.9), 1U);
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+// The time that a message takes on a perfect channel: that of its frame in the format of the interface, or none.
+//
+// No rate control, no RTS, no fragments. An acknowledged frame occupies the channel until the end of its ACK.
+#pragma once
+
+#include <string_view>
+
+#include "netsim/config/interface_config.hpp"
+#include "netsim/kernel/sim_time.hpp"
+#include "netsim/mac/frame.hpp"
+#include "netsim/phy/modes.hpp"
+
+namespace netsim {
+
+class UnitDiskTiming {
+public:
+    // `timing`: MediumConfig::timing. Throws ConfigError for a bitrate that the operation mode does not have.
+    UnitDiskTiming(std::string_view timing, const InterfaceConfig& config);
+
+    bool is_instant() const { return is_instant_; }
+    bool waits_for_channel() const { return waits_for_channel_; }
+    int queue_capacity() const { return queue_capacity_; }
+
+    const Mode& mode(FrameKind kind) const { return kind == FrameKind::broadcast ? *broadcast_ : *unicast_; }
+    // With MAC, IP and UDP headers, in bytes.
+    int psdu_bytes(int payload_bytes) const;
+    // Time on the air of a data frame.
+    SimTime airtime(FrameKind kind, int psdu_bytes) const;
+    // From the end of a data frame until the end of its exchange: SIFS and the ACK of a unicast frame.
+    SimTime response(FrameKind kind) const {
+        return kind == FrameKind::broadcast || is_instant_ ? SimTime{} : response_;
+    }
+    // Between two exchanges: DIFS, or the LIFS of 802.15.4.
+    SimTime gap() const { return gap_; }
+
+private:
+    bool is_instant_;
+    bool waits_for_channel_;
+    bool is_802154_;
+    int queue_capacity_;
+    const Mode* broadcast_;
+    const Mode* unicast_;
+    SimTime response_;
+    SimTime gap_;
+};
+
+}  // namespace netsim

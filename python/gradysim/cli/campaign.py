@@ -1,0 +1,38 @@
+"""What the commands about levels of realism share: the campaign, and the executor of its runs."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gradysim.cli.options import CampaignOptions
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    from gradysim.ladder.campaign import Campaign
+
+
+def campaign_of(file: Path, options: CampaignOptions) -> "Campaign":
+    """Return the campaign of a command line. Raises ConfigError."""
+    from gradysim.ladder.campaign import Campaign
+    from gradysim.scenario.errors import ArgumentNames
+
+    return Campaign(
+        file,
+        options.config,
+        settings=options.settings,
+        run_count=options.run_count,
+        seed=options.seed,
+        names=ArgumentNames(overrides="--set", seed="--seed", runs="-n", config="-c"),
+    )
+
+
+@contextmanager
+def executor_of(options: CampaignOptions) -> "Iterator[Executor]":
+    """Yield an executor with a process for each run."""
+    from gradysim.cli.interrupt import StopOnInterrupt
+    from gradysim.cli.runner import ForkExecutor
+
+    with StopOnInterrupt() as interrupt, ForkExecutor(options.jobs, interrupt) as executor:
+        yield executor

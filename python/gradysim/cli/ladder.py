@@ -1,0 +1,115 @@
+"""`gradysim ladder`: a metric at each level of realism, and its change from level to level."""
+
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+from cyclopts import Parameter
+
+from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.options import CampaignOptions, FileArgument
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from gradysim.ladder.ladder import Rung
+    from gradysim.results.paired import Estimate
+
+
+DEFAULTS = CampaignOptions()
+
+
+def climb_ladder(
+    file: FileArgument,
+    /,
+    *,
+    metric: Annotated[
+        str,
+        Parameter(help="Quantity, by the name that `gradysim means` prints, such as `groundStation collected`."),
+    ],
+    levels: Annotated[
+        str | None, Parameter(help="A..B: only these levels, by number or name; by default all.")
+    ] = None,
+    options: CampaignOptions = DEFAULTS,
+) -> int:
+    """Run a configuration with more and more effects of real radios, and print what each level changes."""
+    from gradysim.cli.campaign import campaign_of, executor_of
+    from gradysim.cli.console import console
+    from gradysim.ladder.ladder import climb
+    from gradysim.scenario.errors import ConfigError
+
+    try:
+        campaign = campaign_of(file, options)
+        chosen = levels_between(levels, [level.name for level in campaign.levels])
+        with executor_of(options) as executor:
+            rungs = list(climb(campaign, metric, chosen, executor))
+    except (ConfigError, OSError) as mistake:
+        return say_mistake(mistake)
+    console().print(ladder_table(rungs, f"{metric}, {len(campaign)} runs of {campaign.config} at each level"))
+    return OK
+
+
+def levels_between(text: str | None, names: list[str]) -> range:
+    """Return the numbers of the levels of `--levels A..B`, where A and B are numbers or names.
+
+    Raises ConfigError if there is no such level, or if B is before A.
+    """
+    if text is None:
+        return range(len(names))
+    first, dots, last = text.partition("..")
+    ends = [_number_of(each.strip(), names) for each in (first, last if dots else first)]
+    if ends[1] < ends[0]:
+        from gradysim.scenario.errors import ConfigError
+
+        raise ConfigError(f"--levels {text}: expected the more ideal level first")
+    return range(ends[0], ends[1] + 1)
+
+
+def _number_of(text: str, names: list[str]) -> int:
+    from gradysim.scenario.errors import ConfigError, nearest
+
+    if text in names:
+        return names.index(text)
+    if text.isdecimal() and int(text) < len(names):
+        return int(text)
+    raise ConfigError(
+        f"--levels: no level `{text}`",
+        expected=f"0 to {len(names) - 1}, or one of {', '.join(names)}",
+        suggestion=nearest(text, names),
+    )
+
+
+def ladder_table(rungs: "list[Rung]", title: str) -> "Table":
+    """Return a row for each level. An arrow marks the largest drop."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    from gradysim.ladder.ladder import largest_drop
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title_justify="left")
+    table.title = Text(title, style="table.title")
+    table.add_column("level", no_wrap=True)
+    table.add_column("adds", overflow="fold")
+    for heading in ("mean ± 95 %", "change ± 95 %"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("most frequent loss", overflow="fold")
+    worst = largest_drop(rungs)
+    for rung in rungs:
+        loss = f"{rung.loss.replace('_', ' ')} {rung.loss_ratio:.1%}" if rung.loss else ""
+        change = "" if rung.change is None else text_of(rung.change, sign="+")
+        mark = " ◀" if rung is worst else ""
+        table.add_row(
+            Text(f"{rung.number} {rung.level.name}"),
+            Text(rung.level.adds),
+            text_of(rung.metric),
+            f"{change}{mark}",
+            loss,
+            style="bold" if rung is worst else None,
+        )
+    return table
+
+
+def text_of(estimate: "Estimate", sign: str = "") -> str:
+    """Return `12.3 ± 0.4`, with four significant digits."""
+    mean = f"{estimate.mean:{sign}.4g}"
+    return mean if estimate.half_width is None else f"{mean} ± {estimate.half_width:.2g}"

@@ -1,0 +1,188 @@
+"""Bisection: the lowest level at which a protocol fails, and the smallest set of effects that makes it fail.
+
+The two ends are calibrated first. Each level between them gets a sequential test: does the protocol work as at
+the ideal end, or as at the real one? The result is confirmed by pairs of runs of the two levels on common
+seeds.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+
+from gradysim.ladder.assertion import Assertion
+from gradysim.ladder.campaign import Campaign, Effects
+from gradysim.ladder.sequential import SequentialTest, probability_of_pairs
+
+_AT_ENDS = 10
+"""Runs that calibrate each end."""
+
+_LEAST_DIFFERENCE = 0.3
+"""Least difference of the ratios at the two ends. Smaller ones take too many runs to be located."""
+
+
+class OutOfRunsError(Exception):
+    """The budget of runs is used up."""
+
+
+@dataclass
+class Tally:
+    """Runs with one set of effects.
+
+    Attributes:
+        outcomes: Whether the assertion holds, by the position of the run.
+    """
+
+    outcomes: list[bool] = field(default_factory=list)
+
+    @property
+    def ratio(self) -> float:
+        """Ratio of runs in which the assertion holds; 0 without runs."""
+        return sum(self.outcomes) / len(self.outcomes) if self.outcomes else 0.0
+
+    def __str__(self) -> str:
+        return f"{sum(self.outcomes)} of {len(self.outcomes)} runs"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Result of a bisection.
+
+    Attributes:
+        works: The highest level at which the protocol works; None if it fails at all levels.
+        fails: The lowest level at which it fails; None if it works at all levels.
+        is_sure: Whether the two levels are next to each other, and pairs of runs confirm the difference.
+        smallest: The smallest set of effects that makes it fail, in the order of levels; empty if unknown.
+        seed_place: Position of a run that works at the one level and fails at the other; None if there is
+            none.
+        run_count: Runs that it took.
+    """
+
+    works: int | None
+    fails: int | None
+    is_sure: bool
+    smallest: tuple[str, ...] = ()
+    seed_place: int | None = None
+    run_count: int = 0
+
+
+class Bisection:
+    """Runs a campaign until it is known which level breaks the protocol."""
+
+    def __init__(
+        self,
+        campaign: Campaign,
+        assertion: Assertion,
+        executor: Executor,
+        *,
+        confidence: float = 0.99,
+        max_runs: int = 400,
+        at_once: int = 1,
+    ) -> None:
+        """Prepare.
+
+        Args:
+            campaign: The configuration. It needs as many runs as one level may take: 100 are enough.
+            assertion: What the protocol has to achieve.
+            executor: Executes the runs, see `Campaign.submit`.
+            confidence: Probability that the level is the right one, > 0.5 and < 1.
+            max_runs: Budget of runs.
+            at_once: Runs that are submitted before their results are looked at.
+        """
+        self._campaign, self._assertion, self._executor = campaign, assertion, executor
+        self._error, self._max_runs, self._at_once = 1 - confidence, max_runs, at_once
+        self._tallies: dict[Effects, Tally] = {}
+        self._high, self._low = 1.0, 0.0
+
+    @property
+    def run_count(self) -> int:
+        """Number of runs so far."""
+        return sum(len(tally.outcomes) for tally in self._tallies.values())
+
+    def at_level(self, number: int) -> Tally:
+        """Return the runs of a level."""
+        return self.with_effects(self._campaign.effects_up_to(number))
+
+    def with_effects(self, effects: Effects) -> Tally:
+        """Return the runs with a set of effects."""
+        return self._tallies.setdefault(effects, Tally())
+
+    def find(self) -> Verdict:
+        """Return the level at which the protocol breaks. Raises what its runs raise."""
+        top = len(self._campaign.levels) - 1
+        self._run(self._effects(0), _AT_ENDS)
+        self._run(self._effects(top), _AT_ENDS)
+        self._high, self._low = self.at_level(0).ratio, self.at_level(top).ratio
+        if self._high - self._low < _LEAST_DIFFERENCE:
+            works = self._high >= 0.5
+            return Verdict(top if works else None, None if works else 0, True, run_count=self.run_count)
+        works, fails = 0, top
+        try:
+            while fails - works > 1:
+                middle = (works + fails) // 2
+                if self._works(self._effects(middle)):
+                    works = middle
+                else:
+                    fails = middle
+            is_sure = self._confirm(works, fails)
+        except OutOfRunsError:
+            return Verdict(works, fails, False, (), self._run_that_differs(works, fails), self.run_count)
+        smallest = self._smallest(fails)
+        return Verdict(
+            works, fails, is_sure, smallest, self._run_that_differs(works, fails), self.run_count
+        )
+
+    def _effects(self, level: int) -> Effects:
+        return self._campaign.effects_up_to(level)
+
+    def _works(self, effects: Effects) -> bool:
+        """Return whether the protocol works with these effects as at the ideal end, by a sequential test."""
+        test = SequentialTest(self._high, self._low, self._error / 5)
+        tally = self.with_effects(effects)
+        test.add(tally.outcomes)
+        while test.works is None:
+            known = len(tally.outcomes)
+            self._run(effects, known + self._at_once)
+            test.add(tally.outcomes[known:])
+        return test.works
+
+    def _confirm(self, works: int, fails: int) -> bool:
+        """Return whether pairs of runs on common seeds show that the two levels differ."""
+        high, low = self._effects(works), self._effects(fails)
+        count = max(len(self.with_effects(each).outcomes) for each in (high, low))
+        while True:
+            self._run(high, count)
+            self._run(low, count)
+            pairs = list(zip(self.with_effects(high).outcomes, self.with_effects(low).outcomes, strict=False))
+            better, worse = pairs.count((True, False)), pairs.count((False, True))
+            if probability_of_pairs(better, worse) < self._error:
+                return True
+            count += self._at_once
+
+    def _smallest(self, fails: int) -> tuple[str, ...]:
+        """Return a set of effects that makes the protocol fail, none of which can be left out.
+
+        Source of the method: A. Zeller and R. Hildebrandt, "Simplifying and isolating failure-inducing input",
+        IEEE Transactions on Software Engineering 28, 2002. Effects are few, so each is tried alone.
+        """
+        needed = self._effects(fails)
+        try:
+            for level in reversed(self._campaign.levels[1 : fails + 1]):
+                if not self._works(needed - {level.name}):
+                    needed -= {level.name}
+        except OutOfRunsError:
+            return ()
+        return tuple(level.name for level in self._campaign.levels[1:] if level.name in needed)
+
+    def _run_that_differs(self, works: int, fails: int) -> int | None:
+        outcomes = zip(self.at_level(works).outcomes, self.at_level(fails).outcomes, strict=False)
+        return next((place for place, (one, other) in enumerate(outcomes) if one and not other), None)
+
+    def _run(self, effects: Effects, count: int) -> None:
+        """Execute the first `count` runs with these effects, unless that has been done."""
+        tally = self.with_effects(effects)
+        missing: Sequence[int] = range(len(tally.outcomes), count)
+        if count > len(self._campaign) or self.run_count + len(missing) > self._max_runs:
+            raise OutOfRunsError
+        metric = self._assertion.metric
+        futures = self._campaign.submit(self._executor, effects, missing, metric)
+        tally.outcomes += [self._assertion.holds(future.result().value) for future in futures]

@@ -1,0 +1,173 @@
+"""The runs of a configuration with any set of effects, on common seeds."""
+
+import contextlib
+import io
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import gradysim.integrated.run  # noqa: F401 (before processes are forked)
+from gradysim.ladder.levels import LEVELS, Level, added_sections, levels_of, settings_without
+from gradysim.ladder.reach import power_settings, range_settings
+from gradysim.results.means import RunSummary
+from gradysim.results.outcomes import Outcomes
+from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, nearest
+from gradysim.scenario.ini import read_ini
+from gradysim.scenario.load import Study
+from gradysim.scenario.scenario import Scenario
+from gradysim.stepping import start
+
+Effects = frozenset[str]
+"""Names of the levels whose effects a run has."""
+
+_FIRST_WITH_RADIOS = "interference"
+_NOT_LOST = {"delivered", "below_sensitivity", "in_air"}
+"""Outcomes of receptions that are not losses, or that are out of range."""
+
+
+@dataclass(frozen=True)
+class Observation:
+    """What one run showed.
+
+    Attributes:
+        value: The metric.
+        losses: {outcome: receptions lost} of frames at their addressees.
+        receptions: Receptions within the range.
+    """
+
+    value: float
+    losses: Mapping[str, int]
+    receptions: int
+
+
+class Campaign:
+    """A configuration whose effects can be left out.
+
+    Attributes:
+        levels: The levels of the ladder that the scenario has.
+        config: Name of the configuration.
+    """
+
+    def __init__(
+        self,
+        file: str | Path,
+        config: str = "General",
+        *,
+        settings: Iterable[str] = (),
+        run_count: int | None = None,
+        seed: int | None = None,
+        names: ArgumentNames = OF_SCRIPT,
+    ) -> None:
+        """Read the configuration.
+
+        Args:
+            file: The .ini file.
+            config: Name of the configuration in it.
+            settings: "KEY=VALUE" strings that precede the file.
+            run_count: Repetitions of each combination of values; None for the `repeat` of the file.
+            seed: Seed of run 0; run N adds N. None for the seed-set of the file.
+            names: Names of these arguments in messages.
+
+        Raises:
+            ConfigError: Anything is wrong with the file or the settings.
+        """
+        self._file, self.config, self._seed, self._names = Path(file), config, seed, names
+        self._settings = [*([] if run_count is None else [f"repeat={run_count}"]), *settings]
+        self._studies: dict[object, Study] = {}
+        self._fixed: dict[tuple[int, int], tuple[list[str], list[str], Scenario]] = {}
+        self._full = self._study((), ())
+        self.levels: tuple[Level, ...] = levels_of(self._full[0], read_ini(self._file).levels)
+
+    def __len__(self) -> int:
+        """Return the number of runs at each level."""
+        return len(self._full)
+
+    def effects_up_to(self, level: int) -> Effects:
+        """Return the effects of the levels 0 to `level`."""
+        return frozenset(each.name for each in self.levels[: level + 1])
+
+    @cached_property
+    def all_effects(self) -> Effects:
+        """The effects of all levels."""
+        return self.effects_up_to(len(self.levels) - 1)
+
+    def scenario(self, effects: Effects, place: int) -> Scenario:
+        """Return the scenario of the run at position `place` with these effects. Raises ConfigError."""
+        powers, ranges = self._fixed_settings(place)
+        left_out = settings_without(self.all_effects - effects, self.levels)
+        return self._study([*powers, *left_out, *ranges], added_sections(effects, self.levels))[place]
+
+    def submit(
+        self, executor: Executor, effects: Effects, places: Iterable[int], metric: str
+    ) -> list[Future[Observation]]:
+        """Submit runs with these effects. Processes that the executor forks have their scenarios loaded.
+
+        Calls that are passed to the executor cannot be pickled.
+        """
+        futures = []
+        for place in places:
+            self.scenario(effects, place)
+            futures.append(executor.submit(self.observe, effects, place, metric))
+        return futures
+
+    def observe(self, effects: Effects, place: int, metric: str) -> Observation:
+        """Run the scenario at a position with these effects, and return what it showed.
+
+        What protocols print is discarded. Raises ConfigError if the run has no such metric, and what
+        protocols raise.
+        """
+        scenario = self.scenario(effects, place)
+        with contextlib.redirect_stdout(io.StringIO()), start(scenario) as run:
+            run.run_until()
+        summary = RunSummary.of(run.result().to_json_object())
+        if metric not in summary.numbers:
+            raise ConfigError(
+                f"no quantity is called `{metric}`",
+                expected=f"one of the run, such as {', '.join(sorted(summary.numbers)[:3])}",
+                suggestion=nearest(metric, summary.numbers),
+            )
+        return Observation(summary.numbers[metric], *_losses(summary.fates))
+
+    def _study(self, settings: Sequence[str], levels: Collection[str]) -> Study:
+        key = (*settings, *levels)
+        if key not in self._studies:
+            self._studies[key] = Study(
+                self._file,
+                self.config,
+                None,
+                [*settings, *self._settings],
+                self._seed,
+                self._names,
+                tuple(levels),
+            )
+        return self._studies[key]
+
+    def _fixed_settings(self, place: int) -> tuple[list[str], list[str]]:
+        """Return the settings that all levels of a run share: of powers and of ranges."""
+        scenario = self._full[place]
+        key = (id(scenario.nodes), id(scenario.medium))
+        if key not in self._fixed:
+            powers = power_settings(scenario)
+            ranges: list[str] = []
+            if powers:
+                at = next(i for i, level in enumerate(LEVELS) if level.name == _FIRST_WITH_RADIOS)
+                noiseless = settings_without([level.name for level in LEVELS[at + 1 :]], self.levels)
+                ranges = range_settings(self._study([*powers, *noiseless], ())[place])
+            self._fixed[key] = (powers, ranges, scenario)  # the scenario keeps the ids from being used again
+        return self._fixed[key][:2]
+
+
+def _losses(outcomes: Outcomes) -> tuple[dict[str, int], int]:
+    """Return the lost receptions by outcome, and the number of receptions within the range."""
+    losses: dict[str, int] = {}
+    receptions = 0
+    for kind, counts in outcomes["frames"].items():
+        if kind.endswith("overheard"):
+            continue
+        receptions += sum(counts.values()) - counts.get("below_sensitivity", 0)
+        for outcome, count in counts.items():
+            if outcome not in _NOT_LOST and count:
+                losses[outcome] = losses.get(outcome, 0) + count
+    return losses, receptions

@@ -1,0 +1,99 @@
+"""The power and the range of each radio, so that all levels of a ladder have the same ones.
+
+Below the level with radios, a circle decides what arrives. Its radius is the distance at which half of the
+frames arrive without noise, fading and interference. The power of each radio is that of the scenario at all
+levels, even if the file sets a range and a level leaves out what the power depends on.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from gradysim.integrated.compiled_part import load_netsim
+from gradysim.integrated.network import medium_config, node_config, node_errors_at
+from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
+from gradysim.scenario.keys import has_radios
+from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    from gradysim._netsim import LinkBudget
+
+_NEAREST_M, _FARTHEST_M = 1e-3, 1e9
+_STEPS = 60
+"""Halvings of the logarithmic interval of distances; the last one is about as wide as a float is accurate."""
+
+
+def power_settings(scenario: Scenario) -> list[str]:
+    """Return "KEY=VALUE" settings of the transmission power of each interface.
+
+    None on a medium without radios. Raises ConfigError, as the run does.
+    """
+    medium = medium_config(scenario)
+    if not has_radios(medium.typename):
+        return []
+    powers = PowersForRanges(medium)
+    values: dict[int, Sequence[str]] = {}
+    for spec in scenario.nodes:
+        config = node_config(spec)
+        with node_errors_at(spec, scenario.medium):
+            powers.set_powers(config, spec)
+        values[spec.id] = [f"{interface.radio.tx_power_w!r}W" for interface in config.wlan]
+    return _settings("power", scenario.nodes, values)
+
+
+def range_settings(scenario: Scenario) -> list[str]:
+    """Return "KEY=VALUE" settings of the range of each interface.
+
+    `scenario` has a medium with radios, the settings of `power_settings`, and neither noise nor fading.
+    """
+    medium = medium_config(scenario)
+    known: dict[object, Sequence[str]] = {}
+    values: dict[int, Sequence[str]] = {}
+    for spec in scenario.nodes:
+        key = (*map(id, spec.wlan), spec.initial_position[2])
+        if key not in known:
+            config = node_config(spec)
+            known[key] = [
+                f"{_range_m(budget, interface.radio.tx_power_w)!r}m"
+                for index, interface in enumerate(config.wlan)
+                for budget in [load_netsim().LinkBudget(medium, config, config, MESSAGE_BYTES, index)]
+            ]
+        values[spec.id] = known[key]
+    return _settings("communicationRange", scenario.nodes, values)
+
+
+def _range_m(budget: "LinkBudget", tx_power_w: float) -> float:
+    """Return the largest distance at which half of the frames arrive. The ratio falls with the distance."""
+    near, far = math.log(_NEAREST_M), math.log(_FARTHEST_M)
+    for _ in range(_STEPS):
+        middle = (near + far) / 2
+        if budget.reception_ratio(math.exp(middle), tx_power_w) >= RATIO:
+            near = middle
+        else:
+            far = middle
+    return math.exp(near)
+
+
+def _settings(parameter: str, nodes: Sequence[NodeSpec], values: Mapping[int, Sequence[str]]) -> list[str]:
+    """Return settings of a parameter of transmitters. `values` are those of the interfaces, by node.
+
+    Groups with equal values have one line for all nodes.
+    """
+    groups: dict[str, list[NodeSpec]] = {}
+    for spec in nodes:
+        groups.setdefault(spec.group, []).append(spec)
+    settings = []
+    for group, members in groups.items():
+        first = members[0]
+        if all(values[spec.id] == values[first.id] for spec in members):
+            members = [first]
+            named = group if first.name == group else f"{group}[*]"
+        else:
+            named = ""
+        settings += [
+            f"*.{named or spec.name}.wlan[{index}].radio.transmitter.{parameter}={value}"
+            for spec in members
+            for index, value in enumerate(values[spec.id])
+        ]
+    return settings
