@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import FAILED, OK, say_mistake
 from gradysim.cli.options import CampaignOptions, FileArgument
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def climb_ladder(
     """Run a configuration with more and more effects of real radios, and print what each level changes."""
     from gradysim.cli.campaign import campaign_of, executor_of
     from gradysim.cli.console import console
-    from gradysim.ladder.ladder import climb
+    from gradysim.ladder.ladder import FailedRunError, climb
     from gradysim.scenario.errors import ConfigError
 
     try:
@@ -44,6 +44,9 @@ def climb_ladder(
             rungs = list(climb(campaign, metric, chosen, executor))
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
+    except FailedRunError as failure:
+        print(failure, file=sys.stderr)
+        return FAILED
     console().print(ladder_table(rungs, f"{metric}, {len(campaign)} runs of {campaign.config} at each level"))
     return OK
 

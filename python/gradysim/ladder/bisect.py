@@ -26,7 +26,7 @@ class OutOfRunsError(Exception):
 
 @dataclass
 class Tally:
-    """Runs with one set of effects.
+    """Runs with one set of effects. A run that fails with an exception does not satisfy the assertion.
 
     Attributes:
         outcomes: Whether the assertion holds, by the position of the run.
@@ -83,7 +83,7 @@ class Bisection:
         Args:
             campaign: The configuration. It needs as many runs as one level may take: 100 are enough.
             assertion: What the protocol has to achieve.
-            executor: Executes the runs, see `Campaign.submit`.
+            executor: Executes the runs, see `Campaign.observations`.
             confidence: Probability that the level is the right one, > 0.5 and < 1.
             max_runs: Budget of runs.
             at_once: Runs that are submitted before their results are looked at.
@@ -113,8 +113,10 @@ class Bisection:
         self._run(self._effects(top), _AT_ENDS)
         self._high, self._low = self.at_level(0).ratio, self.at_level(top).ratio
         if self._high - self._low < _LEAST_DIFFERENCE:
-            works = self._high >= 0.5
-            return Verdict(top if works else None, None if works else 0, True, run_count=self.run_count)
+            survives = self._high >= 0.5
+            return Verdict(
+                top if survives else None, None if survives else 0, True, run_count=self.run_count
+            )
         works, fails = 0, top
         try:
             while fails - works > 1:
@@ -184,5 +186,5 @@ class Bisection:
         if count > len(self._campaign) or self.run_count + len(missing) > self._max_runs:
             raise OutOfRunsError
         metric = self._assertion.metric
-        futures = self._campaign.submit(self._executor, effects, missing, metric)
-        tally.outcomes += [self._assertion.holds(future.result().value) for future in futures]
+        seen = self._campaign.observations(self._executor, effects, missing, metric)
+        tally.outcomes += [each.value is not None and self._assertion.holds(each.value) for each in seen]

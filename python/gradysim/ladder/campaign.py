@@ -2,9 +2,9 @@
 
 import contextlib
 import io
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -32,14 +32,18 @@ class Observation:
     """What one run showed.
 
     Attributes:
-        value: The metric.
+        value: The metric; None if the run failed.
         losses: {outcome: receptions lost} of frames at their addressees.
         receptions: Receptions within the range.
+        failure: Why the run failed: the exception of a protocol, or the end of its process.
+        quantities: Names of all quantities of the run.
     """
 
-    value: float
-    losses: Mapping[str, int]
-    receptions: int
+    value: float | None
+    losses: Mapping[str, int] = field(default_factory=dict)
+    receptions: int = 0
+    failure: str = ""
+    quantities: tuple[str, ...] = ()
 
 
 class Campaign:
@@ -76,6 +80,7 @@ class Campaign:
         self._file, self.config, self._seed, self._names = Path(file), config, seed, names
         self._settings = [*([] if run_count is None else [f"repeat={run_count}"]), *settings]
         self._studies: dict[object, Study] = {}
+        self._quantities: set[str] = set()
         self._fixed: dict[tuple[int, int], tuple[list[str], list[str], Scenario]] = {}
         self._full = self._study((), ())
         self.levels: tuple[Level, ...] = levels_of(self._full[0], read_ini(self._file).levels)
@@ -99,36 +104,50 @@ class Campaign:
         left_out = settings_without(self.all_effects - effects, self.levels)
         return self._study([*powers, *left_out, *ranges], added_sections(effects, self.levels))[place]
 
-    def submit(
+    def observations(
         self, executor: Executor, effects: Effects, places: Iterable[int], metric: str
-    ) -> list[Future[Observation]]:
-        """Submit runs with these effects. Processes that the executor forks have their scenarios loaded.
+    ) -> Iterator[Observation]:
+        """Submit runs with these effects, and return an iterator that waits for what they show.
 
-        Calls that are passed to the executor cannot be pickled.
+        Processes that the executor forks have the scenarios loaded. Calls that are passed to the executor
+        cannot be pickled. Raises ConfigError if the runs have no such metric.
         """
         futures = []
         for place in places:
             self.scenario(effects, place)
             futures.append(executor.submit(self.observe, effects, place, metric))
-        return futures
+        return self._results(futures, metric)
+
+    def _results(self, futures: Sequence[Future[Observation]], metric: str) -> Iterator[Observation]:
+        for future in futures:
+            try:
+                seen = future.result()
+            except Exception as failure:  # the process was killed
+                seen = Observation(None, failure=str(failure))
+            self._quantities.update(seen.quantities)
+            if seen.quantities and metric not in self._quantities:
+                raise ConfigError(
+                    f"no quantity is called `{metric}`",
+                    expected=f"one of {', '.join(f'`{name}`' for name in sorted(self._quantities))}",
+                    suggestion=nearest(metric, self._quantities),
+                )
+            yield seen
 
     def observe(self, effects: Effects, place: int, metric: str) -> Observation:
         """Run the scenario at a position with these effects, and return what it showed.
 
-        What protocols print is discarded. Raises ConfigError if the run has no such metric, and what
-        protocols raise.
+        What protocols print is discarded. A tracked variable that no node of its group has set counts as 0.
         """
         scenario = self.scenario(effects, place)
-        with contextlib.redirect_stdout(io.StringIO()), start(scenario) as run:
-            run.run_until()
+        try:
+            with contextlib.redirect_stdout(io.StringIO()), start(scenario) as run:
+                run.run_until()
+        except Exception as failure:
+            return Observation(None, failure=f"{type(failure).__name__}: {failure}")
         summary = RunSummary.of(run.result().to_json_object())
-        if metric not in summary.numbers:
-            raise ConfigError(
-                f"no quantity is called `{metric}`",
-                expected=f"one of the run, such as {', '.join(sorted(summary.numbers)[:3])}",
-                suggestion=nearest(metric, summary.numbers),
-            )
-        return Observation(summary.numbers[metric], *_losses(summary.fates))
+        losses, receptions = _losses(summary.fates)
+        value = summary.numbers.get(metric, 0.0)
+        return Observation(value, losses, receptions, quantities=tuple(summary.numbers))
 
     def _study(self, settings: Sequence[str], levels: Collection[str]) -> Study:
         key = (*settings, *levels)

@@ -10,6 +10,10 @@ from gradysim.ladder.levels import Level
 from gradysim.results.paired import Estimate, compare_pairs, estimate
 
 
+class FailedRunError(Exception):
+    """A run of a ladder failed: a protocol raised an exception."""
+
+
 @dataclass(frozen=True)
 class Rung:
     """One level of a ladder.
@@ -40,20 +44,22 @@ def climb(campaign: Campaign, metric: str, levels: range, executor: Executor) ->
         campaign: The configuration.
         metric: Name of a quantity, as `gradysim means` prints it.
         levels: Their numbers, in increasing order.
-        executor: Executes the runs, see `Campaign.submit`.
+        executor: Executes the runs, see `Campaign.observations`.
 
     Raises:
         ConfigError: The runs have no such metric.
-        Exception: What protocols raise.
+        FailedRunError: A run failed.
     """
     submitted = {
-        number: campaign.submit(executor, campaign.effects_up_to(number), range(len(campaign)), metric)
+        number: campaign.observations(
+            executor, campaign.effects_up_to(number), range(len(campaign)), metric
+        )
         for number in levels
     }
     before: Sequence[float] = ()
-    for number, futures in submitted.items():
-        seen = [each.result() for each in futures]
-        values = [each.value for each in seen]
+    for number, observations in submitted.items():
+        seen = list(observations)
+        values = [_value(each, campaign.levels[number], place) for place, each in enumerate(seen)]
         loss, ratio = _most_frequent_loss(seen)
         yield Rung(
             number,
@@ -67,13 +73,22 @@ def climb(campaign: Campaign, metric: str, levels: range, executor: Executor) ->
 
 
 def largest_drop(rungs: Sequence[Rung]) -> Rung | None:
-    """Return the rung with the largest decrease of the metric whose interval excludes 0, if there is one."""
-    drops = [each for each in rungs if each.change is not None and _is_drop(each.change)]
-    return min(drops, key=lambda rung: rung.change.mean if rung.change else 0.0, default=None)
+    """Return the rung that decreases the metric by the largest ratio, if there is one.
+
+    The interval of its change does not contain 0.
+    """
+    ratios = [
+        (rung.change.mean / (rung.metric.mean - rung.change.mean), number)
+        for number, rung in enumerate(rungs)
+        if rung.change is not None and rung.change.mean < 0 and rung.change.excludes_zero
+    ]
+    return rungs[min(ratios)[1]] if ratios else None
 
 
-def _is_drop(change: Estimate) -> bool:
-    return change.mean < 0 and (change.half_width is None or change.excludes_zero)
+def _value(seen: Observation, level: Level, place: int) -> float:
+    if seen.value is None:
+        raise FailedRunError(f"level {level.name}, run {place}: {seen.failure}")
+    return seen.value
 
 
 def _most_frequent_loss(seen: Sequence[Observation]) -> tuple[str, float]:

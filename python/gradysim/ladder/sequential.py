@@ -55,4 +55,4 @@ def probability_of_pairs(better: int, worse: int) -> float:
     percentages", Psychometrika 12, 1947.
     """
     pairs = better + worse
-    return sum(math.comb(pairs, count) for count in range(better, pairs + 1)) / 2**pairs
+    return float(sum(math.comb(pairs, count) for count in range(better, pairs + 1)) / 2**pairs)
