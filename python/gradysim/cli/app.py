@@ -12,6 +12,8 @@
     gradysim import FILE.ini [-o DIR]
     gradysim pack DIR [-o FILE] [--remove] [--unpack]
     gradysim ladder FILE.ini [-c CONFIG] --metric QUANTITY ...
+    gradysim bisect FILE.ini [-c CONFIG] --assert 'QUANTITY >= NUMBER' ...
+    gradysim desync FILE.ini [-c CONFIG] ...
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
@@ -29,9 +31,11 @@ from typing import TYPE_CHECKING
 
 from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
 
+from gradysim.cli.bisect import find_breaking_level
 from gradysim.cli.calibrate import calibrate_power
 from gradysim.cli.check import check_file
 from gradysim.cli.compare import compare
+from gradysim.cli.desync import desynchronize_timers
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.import_file import import_file
 from gradysim.cli.keys import list_keys
@@ -87,6 +91,8 @@ app.command(compare)
 app.command(draw_figure, name="plot")
 app.command(pack_results, name="pack")
 app.command(climb_ladder, name="ladder")
+app.command(desynchronize_timers, name="desync")
+app.command(find_breaking_level, name="bisect")
 app.command(list_keys, name="keys")
 app.command(import_file, name="import")
 app.command(calibrate_power, name="calibrate")

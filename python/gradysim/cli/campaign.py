@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from gradysim.ladder.campaign import Campaign
 
 
-def campaign_of(file: Path, options: CampaignOptions) -> "Campaign":
+def campaign_of(file: Path, options: CampaignOptions, run_count: int) -> "Campaign":
     """Return the campaign of a command line. Raises ConfigError."""
     from gradysim.ladder.campaign import Campaign
     from gradysim.scenario.errors import ArgumentNames
@@ -22,7 +22,7 @@ def campaign_of(file: Path, options: CampaignOptions) -> "Campaign":
         file,
         options.config,
         settings=options.settings,
-        run_count=options.run_count,
+        run_count=run_count,
         seed=options.seed,
         names=ArgumentNames(overrides="--set", seed="--seed", runs="-n", config="-c"),
     )

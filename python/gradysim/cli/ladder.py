@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, OK, say_mistake
-from gradysim.cli.options import CampaignOptions, FileArgument
+from gradysim.cli.options import CampaignOptions, FileArgument, RunCountOption
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -29,6 +29,7 @@ def climb_ladder(
     levels: Annotated[
         str | None, Parameter(help="A..B: only these levels, by number or name; by default all.")
     ] = None,
+    run_count: RunCountOption = 20,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
     """Run a configuration with more and more effects of real radios, and print what each level changes."""
@@ -38,7 +39,7 @@ def climb_ladder(
     from gradysim.scenario.errors import ConfigError
 
     try:
-        campaign = campaign_of(file, options)
+        campaign = campaign_of(file, options, run_count)
         chosen = levels_between(levels, [level.name for level in campaign.levels])
         with executor_of(options) as executor:
             rungs = list(climb(campaign, metric, chosen, executor))

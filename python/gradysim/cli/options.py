@@ -281,15 +281,22 @@ class ViewOptions:
     """Open the page. Otherwise only its address is printed."""
 
 
+RunCountOption = Annotated[
+    Integer,
+    Parameter(
+        name=("--repeat", "-n"),
+        help="Number of runs with the same effects, each with its own seed; it replaces the file's `repeat`.",
+    ),
+]
+"""Shared by the commands about levels of realism."""
+
+
 @Parameter(name="*")
 @dataclass(frozen=True, kw_only=True)
 class CampaignOptions:
     """Options of the commands about levels of realism."""
 
     config: ConfigOption = "General"
-
-    run_count: Annotated[Integer | None, Parameter(name=("--repeat", "-n"))] = None
-    """Number of runs at each level, each with its own seed; by default the file's `repeat`."""
 
     settings: SetOption = ()
 

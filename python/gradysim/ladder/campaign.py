@@ -9,8 +9,10 @@ from functools import cached_property
 from pathlib import Path
 
 import gradysim.integrated.run  # noqa: F401 (before processes are forked)
+from gradysim.ladder.jitter import Jitter
 from gradysim.ladder.levels import LEVELS, Level, added_sections, levels_of, settings_without
 from gradysim.ladder.reach import power_settings, range_settings
+from gradysim.replay.sink import ReplayWriter
 from gradysim.results.means import RunSummary
 from gradysim.results.outcomes import Outcomes
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, nearest
@@ -105,7 +107,12 @@ class Campaign:
         return self._study([*powers, *left_out, *ranges], added_sections(effects, self.levels))[place]
 
     def observations(
-        self, executor: Executor, effects: Effects, places: Iterable[int], metric: str
+        self,
+        executor: Executor,
+        effects: Effects,
+        places: Iterable[int],
+        metric: str,
+        jitter: Jitter | None = None,
     ) -> Iterator[Observation]:
         """Submit runs with these effects, and return an iterator that waits for what they show.
 
@@ -115,7 +122,7 @@ class Campaign:
         futures = []
         for place in places:
             self.scenario(effects, place)
-            futures.append(executor.submit(self.observe, effects, place, metric))
+            futures.append(executor.submit(self.observe, effects, place, metric, jitter))
         return self._results(futures, metric)
 
     def _results(self, futures: Sequence[Future[Observation]], metric: str) -> Iterator[Observation]:
@@ -133,14 +140,28 @@ class Campaign:
                 )
             yield seen
 
-    def observe(self, effects: Effects, place: int, metric: str) -> Observation:
+    def record(self, effects: Effects, place: int, path: Path) -> None:
+        """Write the replay of the run at a position with these effects. Raises what protocols raise."""
+        recorder = ReplayWriter(path)
+        with (
+            contextlib.redirect_stdout(io.StringIO()),
+            start(self.scenario(effects, place), replay=recorder) as run,
+        ):
+            run.run_until()
+
+    def observe(
+        self, effects: Effects, place: int, metric: str, jitter: Jitter | None = None
+    ) -> Observation:
         """Run the scenario at a position with these effects, and return what it showed.
 
-        What protocols print is discarded. A tracked variable that no node of its group has set counts as 0.
+        What protocols print is discarded. A quantity that the run does not have counts as 0, such as a
+        tracked variable that no node has set.
         """
         scenario = self.scenario(effects, place)
         try:
             with contextlib.redirect_stdout(io.StringIO()), start(scenario) as run:
+                if jitter is not None:
+                    jitter.add_to(run, scenario)
                 run.run_until()
         except Exception as failure:
             return Observation(None, failure=f"{type(failure).__name__}: {failure}")

@@ -1,0 +1,43 @@
+"""A random delay of timers, added to a run without a change of its protocols."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from random import Random
+
+from gradysim.results.scenario_run import ScenarioRun
+from gradysim.scenario.scenario import Scenario
+
+
+@dataclass(frozen=True)
+class Jitter:
+    """A delay that is drawn for each of some timers, from 0 to `longest_s`.
+
+    Attributes:
+        timers: (group of nodes, name of the timer).
+        longest_s: Largest delay in seconds.
+    """
+
+    timers: frozenset[tuple[str, str]]
+    longest_s: float
+
+    def add_to(self, run: ScenarioRun, scenario: Scenario) -> None:
+        """Delay the timers of a run that has not begun.
+
+        The delays are drawn from random streams of their own, so that all other draws stay the same.
+        """
+        for spec in scenario.nodes:
+            group = spec.group if spec.name == spec.group else f"{spec.group}[*]"
+            names = {timer for of_group, timer in self.timers if of_group == group}
+            if names:
+                provider = run.node(spec.name).provider
+                stream = Random(f"{scenario.seed} {spec.id}")
+                provider.schedule_timer = self._delayed(provider.schedule_timer, names, stream)
+
+    def _delayed(
+        self, schedule: Callable[[str, float], None], names: set[str], stream: Random
+    ) -> Callable[[str, float], None]:
+        def schedule_later(timer: str, timestamp: float) -> None:
+            delay_s = stream.uniform(0, self.longest_s) if timer in names else 0.0
+            schedule(timer, timestamp + delay_s)
+
+        return schedule_later
