@@ -27,7 +27,8 @@ def find_breaking_level(
     assertion: Annotated[
         str,
         Parameter(
-            name="--assert", help="What the protocol has to achieve, such as `groundStation collected >= 100`."
+            name="--assert",
+            help="What the protocol has to achieve, such as `groundStation collected >= 100`.",
         ),
     ],
     confidence: Annotated[float, Parameter(help="Probability that the level is the right one.")] = 0.99,
@@ -47,7 +48,9 @@ def find_breaking_level(
 
     try:
         if not 0.5 < confidence < 1:
-            raise ConfigError(f"--confidence {confidence}: it is out of range; expected 0.5 to 1, such as 0.99")
+            raise ConfigError(
+                f"--confidence {confidence}: it is out of range; expected 0.5 to 1, such as 0.99"
+            )
         campaign = campaign_of(file, options, run_count=max_runs)
         with executor_of(options) as executor:
             bisection = Bisection(

@@ -1,5 +1,6 @@
 """What the commands about levels of realism share: the campaign, and the executor of its runs."""
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -11,6 +12,7 @@ if TYPE_CHECKING:
     from concurrent.futures import Executor
 
     from gradysim.ladder.campaign import Campaign
+    from gradysim.plots.numbers import Numbers
 
 
 def campaign_of(file: Path, options: CampaignOptions, run_count: int) -> "Campaign":
@@ -36,3 +38,14 @@ def executor_of(options: CampaignOptions) -> "Iterator[Executor]":
 
     with StopOnInterrupt() as interrupt, ForkExecutor(options.jobs, interrupt) as executor:
         yield executor
+
+
+def save(
+    path: Path, numbers: "Numbers", file: Path, options: CampaignOptions, *, log: tuple[str, ...] = ()
+) -> None:
+    """Draw a figure, and say on standard error where it is. Raises what `save_numbers` raises."""
+    from gradysim.plots import save_numbers
+
+    origin = {"file": str(file), "config": options.config, "settings": options.settings, "seed": options.seed}
+    figure, table, provenance = save_numbers(path, numbers, origin, log=log)
+    print(f"drawn in {figure}; numbers in {table}, origin in {provenance}", file=sys.stderr)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, OK, say_mistake
-from gradysim.cli.options import CampaignOptions, FileArgument, RunCountOption
+from gradysim.cli.options import CampaignOptions, FigureOption, FileArgument, RunCountOption
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -38,10 +38,11 @@ def desynchronize_timers(
         str, Parameter(help="Quantity to print for each jitter, by the name that `gradysim means` prints.")
     ] = "events",
     run_count: RunCountOption = 4,
+    output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
     """Find timers of nodes that send into each other, and the random delay (jitter) that they need."""
-    from gradysim.cli.campaign import campaign_of, executor_of
+    from gradysim.cli.campaign import campaign_of, executor_of, save
     from gradysim.cli.console import console
     from gradysim.ladder.desync import desynchronize
     from gradysim.scenario.errors import ConfigError
@@ -50,16 +51,20 @@ def desynchronize_timers(
         campaign = campaign_of(file, options, run_count)
         with executor_of(options) as executor:
             found = desynchronize(campaign, executor, metric)
-    except (ConfigError, OSError) as mistake:
+        if output is not None and found.trials:
+            from gradysim.ladder.figures import jitter_numbers
+
+            save(output, jitter_numbers(found), file, options, log=("x",))
+    except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
     except Exception as failure:
         print(f"{options.config} run 0: {failure}", file=sys.stderr)
         return FAILED
-    output = console()
-    output.print(*sentences(found), sep="\n", markup=False, highlight=False)
+    terminal = console()
+    terminal.print(*sentences(found), sep="\n", markup=False, highlight=False)
     if found.trials:
-        output.print()
-        output.print(curve_table(found, metric))
+        terminal.print()
+        terminal.print(curve_table(found, metric))
     return OK
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, OK, say_mistake
-from gradysim.cli.options import CampaignOptions, FileArgument, RunCountOption
+from gradysim.cli.options import CampaignOptions, FigureOption, FileArgument, RunCountOption
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -24,16 +24,19 @@ def climb_ladder(
     *,
     metric: Annotated[
         str,
-        Parameter(help="Quantity, by the name that `gradysim means` prints, such as `groundStation collected`."),
+        Parameter(
+            help="Quantity, by the name that `gradysim means` prints, such as `groundStation collected`."
+        ),
     ],
     levels: Annotated[
         str | None, Parameter(help="A..B: only these levels, by number or name; by default all.")
     ] = None,
     run_count: RunCountOption = 20,
+    output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
     """Run a configuration with more and more effects of real radios, and print what each level changes."""
-    from gradysim.cli.campaign import campaign_of, executor_of
+    from gradysim.cli.campaign import campaign_of, executor_of, save
     from gradysim.cli.console import console
     from gradysim.ladder.ladder import FailedRunError, climb
     from gradysim.scenario.errors import ConfigError
@@ -43,7 +46,11 @@ def climb_ladder(
         chosen = levels_between(levels, [level.name for level in campaign.levels])
         with executor_of(options) as executor:
             rungs = list(climb(campaign, metric, chosen, executor))
-    except (ConfigError, OSError) as mistake:
+        if output is not None:
+            from gradysim.ladder.figures import ladder_numbers
+
+            save(output, ladder_numbers(rungs, metric, len(campaign)), file, options)
+    except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
     except FailedRunError as failure:
         print(failure, file=sys.stderr)

@@ -281,6 +281,14 @@ class ViewOptions:
     """Open the page. Otherwise only its address is printed."""
 
 
+FigureOption = Annotated[
+    Path | None,
+    Parameter(
+        name=("--plot", "-o"),
+        help="Draw it to this file: .pdf, .png or .svg. Its numbers and their origin go to files of the same"
+        " name that end in .csv and .json.",
+    ),
+]
 RunCountOption = Annotated[
     Integer,
     Parameter(

@@ -43,7 +43,8 @@ class Assertion:
         except ValueError:
             pass
         raise ConfigError(
-            f"`{text}` is not an assertion", expected="QUANTITY >= NUMBER, such as `groundStation heard >= 100`"
+            f"`{text}` is not an assertion",
+            expected="QUANTITY >= NUMBER, such as `groundStation heard >= 100`",
         )
 
     def holds(self, value: float) -> bool:

@@ -114,9 +114,7 @@ class Bisection:
         self._high, self._low = self.at_level(0).ratio, self.at_level(top).ratio
         if self._high - self._low < _LEAST_DIFFERENCE:
             survives = self._high >= 0.5
-            return Verdict(
-                top if survives else None, None if survives else 0, True, run_count=self.run_count
-            )
+            return Verdict(top if survives else None, None if survives else 0, True, run_count=self.run_count)
         works, fails = 0, top
         try:
             while fails - works > 1:
@@ -129,9 +127,7 @@ class Bisection:
         except OutOfRunsError:
             return Verdict(works, fails, False, (), self._run_that_differs(works, fails), self.run_count)
         smallest = self._smallest(fails)
-        return Verdict(
-            works, fails, is_sure, smallest, self._run_that_differs(works, fails), self.run_count
-        )
+        return Verdict(works, fails, is_sure, smallest, self._run_that_differs(works, fails), self.run_count)
 
     def _effects(self, level: int) -> Effects:
         return self._campaign.effects_up_to(level)

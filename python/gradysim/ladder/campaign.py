@@ -149,9 +149,7 @@ class Campaign:
         ):
             run.run_until()
 
-    def observe(
-        self, effects: Effects, place: int, metric: str, jitter: Jitter | None = None
-    ) -> Observation:
+    def observe(self, effects: Effects, place: int, metric: str, jitter: Jitter | None = None) -> Observation:
         """Run the scenario at a position with these effects, and return what it showed.
 
         What protocols print is discarded. A quantity that the run does not have counts as 0, such as a

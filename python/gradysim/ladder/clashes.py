@@ -15,7 +15,13 @@ Verdict = Literal["saturated", "hidden", "synchronized", "drifting", "random"]
 
 _LOST_TO_OTHERS = {
     OUTCOMES.index(name)
-    for name in ("interference", "receiver_transmitting", "receiver_locked", "captured", "preamble_undetected")
+    for name in (
+        "interference",
+        "receiver_transmitting",
+        "receiver_locked",
+        "captured",
+        "preamble_undetected",
+    )
 }
 _TIMER = "timer "
 _NS_PER_S = 1e9
@@ -36,7 +42,11 @@ class Origin:
 
     def __str__(self) -> str:
         name = self.cause.removeprefix(_TIMER)
-        return f'timer "{name}" of {self.group}' if self.is_timer else f"{self.cause or 'an answer'} of {self.group}"
+        return (
+            f'timer "{name}" of {self.group}'
+            if self.is_timer
+            else f"{self.cause or 'an answer'} of {self.group}"
+        )
 
     @property
     def is_timer(self) -> bool:

@@ -42,14 +42,19 @@ class Desync:
         timers: (group of nodes, name) of the timers that need jitter; empty if jitter does not help.
         trials: The curve, by jitter; empty without timers.
         jitter_s: The smallest jitter whose delivery is within 1 % of the best; None without timers.
-        run_count: Runs that it took.
+        runs_per_trial: Runs with each jitter.
     """
 
     diagnosis: Diagnosis
     timers: tuple[tuple[str, str], ...] = ()
     trials: tuple[Trial, ...] = ()
     jitter_s: float | None = None
-    run_count: int = 1
+    runs_per_trial: int = 0
+
+    @property
+    def run_count(self) -> int:
+        """Number of all runs."""
+        return 1 + len(self.trials) * self.runs_per_trial
 
 
 def desynchronize(campaign: Campaign, executor: Executor, metric: str = "events") -> Desync:
@@ -90,7 +95,7 @@ def desynchronize(campaign: Campaign, executor: Executor, metric: str = "events"
     trials = tuple(_trial(jitter_s, list(seen)) for jitter_s, seen in observations.items())
     best = max(trial.delivery for trial in trials)
     smallest = next(each.jitter_s for each in trials if each.delivery >= best * (1 - _SUFFICIENT))
-    return Desync(diagnosis, timers, trials, smallest, 1 + len(trials) * len(campaign))
+    return Desync(diagnosis, timers, trials, smallest, len(campaign))
 
 
 def is_fixable(pattern: Pattern) -> bool:

@@ -51,9 +51,7 @@ def climb(campaign: Campaign, metric: str, levels: range, executor: Executor) ->
         FailedRunError: A run failed.
     """
     submitted = {
-        number: campaign.observations(
-            executor, campaign.effects_up_to(number), range(len(campaign)), metric
-        )
+        number: campaign.observations(executor, campaign.effects_up_to(number), range(len(campaign)), metric)
         for number in levels
     }
     before: Sequence[float] = ()

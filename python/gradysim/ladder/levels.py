@@ -159,6 +159,7 @@ LEVELS = (
 )
 """The built-in levels, from the most ideal one to the scenario as it is."""
 
+
 def levels_of(scenario: Scenario, sections: Mapping[str, Section]) -> tuple[Level, ...]:
     """Return the levels whose effects a scenario has, and then those of its file."""
     return (

@@ -87,7 +87,10 @@ def _first_difference(works: Replay, fails: Replay) -> Difference | None:
             sender, receiver, _ = key
             cause = table["cause"][row]
             found.append(
-                (time_ns, Difference(time_ns / _NS_PER_S, names[sender], names[receiver], cause, before, after))
+                (
+                    time_ns,
+                    Difference(time_ns / _NS_PER_S, names[sender], names[receiver], cause, before, after),
+                )
             )
     return min(found, key=lambda each: (each[0], each[1].receiver))[1] if found else None
 

@@ -41,6 +41,7 @@ __all__ = [
     "outcomes",
     "save_changes",
     "save_figure",
+    "save_numbers",
     "time",
 ]
 
@@ -92,6 +93,10 @@ def outcomes(
 def map(axes: "Axes", runs: Runs) -> "Axes":
     """Draw the paths of the nodes of the first run, from the files of `gradysim run --vectors`."""
     return draw_map(axes, map_numbers(runs))
+
+
+_MOST_LEVEL_TICKS = 5
+"""Largest number of categories whose names fit next to each other."""
 
 
 @dataclass(frozen=True)
@@ -171,6 +176,36 @@ def save_figure(
             getattr(axes, f"set_{axis}scale")("log")
         origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
         return write_files(figure, path, numbers, list(runs), origin)
+
+
+def save_numbers(
+    path: str | Path, numbers: Numbers, origin: Mapping[str, object], *, log: Iterable[str] = ()
+) -> tuple[Path, Path, Path]:
+    """Draw means that do not come from files of results, and write the three files of `save_figure`.
+
+    Args:
+        path: The file of the picture.
+        numbers: Means with intervals.
+        origin: Where they come from, for the JSON file.
+        log: Axes with a logarithmic scale: "x", "y".
+
+    Raises:
+        ConfigError: The format is unknown.
+        ImportError: matplotlib is missing.
+        OSError: A file cannot be written.
+    """
+    path = Path(path)
+    check_file(path, [])
+    figure = new_figure()
+    from matplotlib import rc_context
+
+    with rc_context(STYLE):
+        axes = draw_line(figure.subplots(), numbers)
+        for axis in log:
+            getattr(axes, f"set_{axis}scale")("log")
+        if len(numbers.categories) > _MOST_LEVEL_TICKS:
+            axes.tick_params("x", rotation=30)
+        return write_files(figure, path, numbers, [], origin)
 
 
 def save_changes(

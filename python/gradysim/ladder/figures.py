@@ -1,0 +1,38 @@
+"""Numbers of the figures of a ladder and of a curve of jitters, for `gradysim.plots.save_numbers`."""
+
+from collections.abc import Sequence
+
+from gradysim.ladder.desync import Desync
+from gradysim.ladder.ladder import Rung
+from gradysim.plots.numbers import Curve, Numbers, caption_of, label_of
+
+
+def ladder_numbers(rungs: Sequence[Rung], metric: str, run_count: int) -> Numbers:
+    """Return the mean of the metric at each level, with its 95 % interval."""
+    names = [rung.level.name for rung in rungs]
+    curve = Curve(
+        {},
+        {
+            "level": names,
+            "runs": [run_count] * len(rungs),
+            "mean": [rung.metric.mean for rung in rungs],
+            "half_width": [rung.metric.half_width for rung in rungs],
+        },
+    )
+    return Numbers([curve], "level", label_of(metric), caption_of("mean", [run_count]), names)
+
+
+def jitter_numbers(found: Desync) -> Numbers:
+    """Return the delivery ratio for each jitter above 0."""
+    without, trials = found.trials[0], found.trials[1:]
+    curve = Curve(
+        {},
+        {
+            "jitter (s)": [trial.jitter_s for trial in trials],
+            "runs": [found.runs_per_trial] * len(trials),
+            "mean": [trial.delivery for trial in trials],
+            "half_width": [None] * len(trials),
+        },
+    )
+    caption = f"{without.delivery:.3f} without jitter; n = {found.runs_per_trial} runs"
+    return Numbers([curve], "jitter (s)", "receptions delivered", caption)
