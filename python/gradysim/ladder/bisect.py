@@ -1,7 +1,7 @@
 """Bisection: the lowest level at which a protocol fails, and the smallest set of effects that makes it fail.
 
-The two ends are calibrated first. Each level between them gets a sequential test: does the protocol work as at
-the ideal end, or as at the real one? The result is confirmed by pairs of runs of the two levels on common
+The two ends are calibrated first. Each level between them gets a sequential test: does the protocol work as
+at the ideal end, or as at the real one? The result is confirmed by pairs of runs of the two levels on common
 seeds.
 """
 
@@ -159,8 +159,8 @@ class Bisection:
     def _smallest(self, fails: int) -> tuple[str, ...]:
         """Return a set of effects that makes the protocol fail, none of which can be left out.
 
-        Source of the method: A. Zeller and R. Hildebrandt, "Simplifying and isolating failure-inducing input",
-        IEEE Transactions on Software Engineering 28, 2002. Effects are few, so each is tried alone.
+        Effects are few, so each is tried alone. Source of the method: A. Zeller and R. Hildebrandt,
+        "Simplifying and isolating failure-inducing input", IEEE Transactions on Software Engineering 28, 2002.
         """
         needed = self._effects(fails)
         try:

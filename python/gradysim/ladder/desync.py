@@ -1,4 +1,4 @@
-"""Desynchronization: which timers send into each other, and the jitter that fixes it, verified by simulation."""
+"""Desynchronization: which timers send into each other, and the jitter that fixes it, found by simulation."""
 
 import tempfile
 from collections.abc import Sequence

@@ -1,8 +1,8 @@
 """The levels of the ladder. Each adds one effect to the level before, in physical order.
 
-A level is declared by the settings that leave its effect out. At level k, the effects of the levels above k are
-left out, and everything else is as the scenario says. Random streams have a purpose each, so that levels share
-positions, traffic and all draws that both of them make.
+A level is declared by the settings that leave its effect out. At level k, the effects of the levels above k
+are left out, and everything else is as the scenario says. Random streams have a purpose each, so that levels
+share positions, traffic and all draws that both of them make.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence

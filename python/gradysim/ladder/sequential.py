@@ -1,4 +1,4 @@
-"""Sequential tests: how many runs it takes to tell a setting in which a protocol works from one in which it fails.
+"""Sequential tests: as many runs as it takes to decide whether a protocol works or fails.
 
 Source: A. Wald, "Sequential tests of statistical hypotheses", Annals of Mathematical Statistics 16, 1945.
 """

@@ -134,7 +134,9 @@ class _Reader:
         self.errors = ErrorCollector()
         self._bytes = self._files = 0
 
-    def read(self, file: Path, section: Section, asked_by: Source | None, including: tuple[Path, ...]) -> None:
+    def read(
+        self, file: Path, section: Section, asked_by: Source | None, including: tuple[Path, ...]
+    ) -> None:
         """Read one file into `section`, up to its first heading."""
         headings: dict[tuple[str, str], int] = {}
         text = self._text_of(file, asked_by)  # before `resolve`, which fails for names that no file can have
