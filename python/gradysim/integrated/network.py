@@ -44,8 +44,19 @@ def _built(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     nodes = tuple(add_node(network, spec, powers, scenario.medium) for spec in scenario.nodes)
     for spec, node in zip(scenario.nodes, nodes, strict=True):
         if is_native(spec):
+            _check_clock(spec)
             set_native_protocol(node, spec)
     return network, nodes
+
+
+def _check_clock(spec: NodeSpec) -> None:
+    if spec.drift_rate:
+        text = (
+            f"{spec.name} runs {spec.protocol.__name__}, a protocol of the engine, without a clock of its own"
+        )
+        raise ConfigError.at(
+            spec.node["drift_rate_ppm"].source, text, expected="0ppm, or a protocol in Python"
+        )
 
 
 def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
@@ -141,6 +142,7 @@ class IntegratedRun(ScenarioRun):
             )
             provider.run_name = name
             provider.has_telemetry = spec.has_telemetry
+            let_clock_drift(provider, spec.drift_rate)
             if tell_variable is not None:
                 watch_tracked_variables(provider, tell_variable)
             encapsulator: NetsimEncapsulator[IProtocol] = NetsimEncapsulator(node, provider)

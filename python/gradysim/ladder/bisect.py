@@ -160,7 +160,7 @@ class Bisection:
         """Return a set of effects that makes the protocol fail, none of which can be left out.
 
         Effects are few, so each is tried alone. Source of the method: A. Zeller and R. Hildebrandt,
-        "Simplifying and isolating failure-inducing input", IEEE Transactions on Software Engineering 28, 2002.
+        "Simplifying and isolating failure-inducing input", IEEE Trans. on Software Engineering 28, 2002.
         """
         needed = self._effects(fails)
         try:

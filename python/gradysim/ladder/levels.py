@@ -53,6 +53,10 @@ def _has_autopilots(scenario: Scenario) -> bool:
     return any(node.autopilot is not None for node in scenario.nodes)
 
 
+def _has_drifting_clocks(scenario: Scenario) -> bool:
+    return any(node.drift_rate for node in scenario.nodes)
+
+
 @dataclass(frozen=True)
 class Level:
     """One level.
@@ -155,6 +159,12 @@ LEVELS = (
         "vehicles are flown by ArduPilot",
         {"*.*.mobility.typename": '"MasslessMobility"'},
         _has_autopilots,
+    ),
+    Level(
+        "clocks",
+        "the clocks of nodes run fast or slow",
+        {"*.*.clock.oscillator.driftRate": "0ppm"},
+        _has_drifting_clocks,
     ),
 )
 """The built-in levels, from the most ideal one to the scenario as it is."""

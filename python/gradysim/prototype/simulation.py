@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.protocol.interface import IProvider
@@ -75,6 +76,7 @@ def build_simulation(
         provider = node.protocol_encapsulator.provider
         provider.run_name = name
         provider.has_telemetry = scenario.nodes[node.id].has_telemetry
+        let_clock_drift(provider, scenario.nodes[node.id].drift_rate)
         if replay is not None:
             replay.watch_node(node, is_flown=scenario.nodes[node.id].autopilot is not None)
         record_node(node, recorded.get(node.id), replay)

@@ -70,6 +70,8 @@ def has_radios(medium_typename: object) -> bool:
     return medium_typename in RADIO_MEDIA.names
 
 
+LARGEST_DRIFT_PPM = 100_000.0
+
 MASSLESS = "MasslessMobility"
 STATIONARY = "StationaryMobility"
 STATIC_GRID = "StaticGridMobility"
@@ -231,6 +233,14 @@ NUM_WLAN_INTERFACES = Key(
     integer(1, MOST_INTERFACES),
     "Number of network interfaces: wlan[0], wlan[1], and so on, each on a channel of its own",
     default="1",
+)
+DRIFT_RATE = Key(
+    "clock.oscillator.driftRate",
+    "node.drift_rate_ppm",
+    quantity("ppm", at_least=-LARGEST_DRIFT_PPM, at_most=LARGEST_DRIFT_PPM),
+    "How much faster than simulated time the clock of the protocol runs, with its timers; not for protocols of"
+    " the engine",
+    default="0ppm",
 )
 INTERFACE_TYPENAME = engine_key("interface.typename")
 CENTER_FREQUENCY = engine_key("radio.carrier_hz")
@@ -395,7 +405,13 @@ WLAN_KEYS: tuple[Key, ...] = (
 )
 """Keys below a network interface, here wlan[0]."""
 
-NODE_KEYS: tuple[Key, ...] = (*PROTOCOL_KEYS, *MOBILITY_KEYS, NUM_WLAN_INTERFACES, *WLAN_KEYS)
+NODE_KEYS: tuple[Key, ...] = (
+    *PROTOCOL_KEYS,
+    *MOBILITY_KEYS,
+    DRIFT_RATE,
+    NUM_WLAN_INTERFACES,
+    *WLAN_KEYS,
+)
 """Keys below a node, as if each had one interface."""
 
 NETWORK_KEYS: tuple[Key, ...] = (

@@ -148,7 +148,7 @@ class NodeSpec:
         mobility: Fields of MobilityConfig that are set; the others keep their defaults.
         wlan: Its network interfaces, at least one.
         protocol_sources: The places of the parameters, and under "" that of the protocol.
-        node: Settings of the node itself: the number of its interfaces.
+        node: Settings of the node itself: the number of its interfaces, and its clock.
         autopilot: The autopilot that flies it, or None. The mobility is massless then and follows it.
         idle_autopilot: Settings of an autopilot, if none flies the node.
     """
@@ -180,6 +180,12 @@ class NodeSpec:
                 )
         place = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
         object.__setattr__(self, "initial_position", place)
+
+    @property
+    def drift_rate(self) -> float:
+        """How much faster than simulated time its clock runs, as a ratio: 1e-6 for 1 ppm."""
+        drift = self.node.get("drift_rate_ppm")
+        return 0.0 if drift is None else float(drift.value) * 1e-6
 
     @property
     def has_telemetry(self) -> bool:

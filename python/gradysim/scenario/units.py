@@ -26,6 +26,7 @@ class Dimension(Enum):
     ANGLE = "an angle such as 90deg"
     LEVEL = "a ratio in decibels such as 4dB"
     RATIO = "a plain number"
+    SMALL_RATIO = "a ratio such as 20ppm"
     ENERGY = "an energy such as 10J"
     VOLTAGE = "a voltage such as 12V"
     CURRENT = "a current such as 2A"
@@ -70,6 +71,7 @@ _LINEAR: dict[Dimension, dict[str, Fraction | int | str]] = {
     Dimension.ANGLE: {"rad": 1, "deg": Fraction(math.pi) / 180},
     Dimension.LEVEL: {"dB": 1},
     Dimension.RATIO: {"x": 1},
+    Dimension.SMALL_RATIO: {"ppm": 1},
     Dimension.ENERGY: {"J": 1, "kJ": 1000, "MJ": "1e6", "mJ": "1e-3", "Wh": 3600, "kWh": 3600000},
     Dimension.VOLTAGE: {"V": 1, "mV": "1e-3"},
     Dimension.CURRENT: {"A": 1, "mA": "1e-3", "uA": "1e-6"},
