@@ -16,6 +16,9 @@ from gradysim.ladder.sequential import SequentialTest, probability_of_pairs
 _AT_ENDS = 10
 """Runs that calibrate each end."""
 
+_AT_ONCE = 4
+"""Runs that are submitted before their results are looked at."""
+
 _LEAST_DIFFERENCE = 0.3
 """Least difference of the ratios at the two ends. Smaller ones take too many runs to be located."""
 
@@ -52,8 +55,7 @@ class Verdict:
         fails: The lowest level at which it fails; None if it works at all levels.
         is_sure: Whether the two levels are next to each other, and pairs of runs confirm the difference.
         smallest: The smallest set of effects that makes it fail, in the order of levels; empty if unknown.
-        seed_place: Position of a run that works at the one level and fails at the other; None if there is
-            none.
+        place: Position of a run that works at the one level and fails at the other, if there is one.
         run_count: Runs that it took.
     """
 
@@ -61,22 +63,26 @@ class Verdict:
     fails: int | None
     is_sure: bool
     smallest: tuple[str, ...] = ()
-    seed_place: int | None = None
+    place: int | None = None
     run_count: int = 0
 
 
 class Bisection:
-    """Runs a campaign until it is known which level breaks the protocol."""
+    """Runs a campaign until it is known which level breaks the protocol.
+
+    Attributes:
+        campaign: The configuration.
+        confidence: Probability that the level is the right one.
+    """
 
     def __init__(
         self,
         campaign: Campaign,
         assertion: Assertion,
-        executor: Executor,
+        executor: Executor | None = None,
         *,
         confidence: float = 0.99,
         max_runs: int = 400,
-        at_once: int = 1,
     ) -> None:
         """Prepare.
 
@@ -86,10 +92,9 @@ class Bisection:
             executor: Executes the runs, see `Campaign.observations`.
             confidence: Probability that the level is the right one, > 0.5 and < 1.
             max_runs: Budget of runs.
-            at_once: Runs that are submitted before their results are looked at.
         """
-        self._campaign, self._assertion, self._executor = campaign, assertion, executor
-        self._error, self._max_runs, self._at_once = 1 - confidence, max_runs, at_once
+        self.campaign, self.confidence = campaign, confidence
+        self._assertion, self._executor, self._max_runs = assertion, executor, max_runs
         self._tallies: dict[Effects, Tally] = {}
         self._high, self._low = 1.0, 0.0
 
@@ -100,7 +105,7 @@ class Bisection:
 
     def at_level(self, number: int) -> Tally:
         """Return the runs of a level."""
-        return self.with_effects(self._campaign.effects_up_to(number))
+        return self.with_effects(self.campaign.effects_up_to(number))
 
     def with_effects(self, effects: Effects) -> Tally:
         """Return the runs with a set of effects."""
@@ -108,7 +113,7 @@ class Bisection:
 
     def find(self) -> Verdict:
         """Return the level at which the protocol breaks. Raises what its runs raise."""
-        top = len(self._campaign.levels) - 1
+        top = len(self.campaign.levels) - 1
         self._run(self._effects(0), _AT_ENDS)
         self._run(self._effects(top), _AT_ENDS)
         self._high, self._low = self.at_level(0).ratio, self.at_level(top).ratio
@@ -130,16 +135,16 @@ class Bisection:
         return Verdict(works, fails, is_sure, smallest, self._run_that_differs(works, fails), self.run_count)
 
     def _effects(self, level: int) -> Effects:
-        return self._campaign.effects_up_to(level)
+        return self.campaign.effects_up_to(level)
 
     def _works(self, effects: Effects) -> bool:
         """Return whether the protocol works with these effects as at the ideal end, by a sequential test."""
-        test = SequentialTest(self._high, self._low, self._error / 5)
+        test = SequentialTest(self._high, self._low, (1 - self.confidence) / 5)
         tally = self.with_effects(effects)
         test.add(tally.outcomes)
         while test.works is None:
             known = len(tally.outcomes)
-            self._run(effects, known + self._at_once)
+            self._run(effects, known + _AT_ONCE)
             test.add(tally.outcomes[known:])
         return test.works
 
@@ -152,9 +157,9 @@ class Bisection:
             self._run(low, count)
             pairs = list(zip(self.with_effects(high).outcomes, self.with_effects(low).outcomes, strict=False))
             better, worse = pairs.count((True, False)), pairs.count((False, True))
-            if probability_of_pairs(better, worse) < self._error:
+            if probability_of_pairs(better, worse) < 1 - self.confidence:
                 return True
-            count += self._at_once
+            count += _AT_ONCE
 
     def _smallest(self, fails: int) -> tuple[str, ...]:
         """Return a set of effects that makes the protocol fail, none of which can be left out.
@@ -164,12 +169,12 @@ class Bisection:
         """
         needed = self._effects(fails)
         try:
-            for level in reversed(self._campaign.levels[1 : fails + 1]):
+            for level in reversed(self.campaign.levels[1 : fails + 1]):
                 if not self._works(needed - {level.name}):
                     needed -= {level.name}
         except OutOfRunsError:
             return ()
-        return tuple(level.name for level in self._campaign.levels[1:] if level.name in needed)
+        return tuple(level.name for level in self.campaign.levels[1:] if level.name in needed)
 
     def _run_that_differs(self, works: int, fails: int) -> int | None:
         outcomes = zip(self.at_level(works).outcomes, self.at_level(fails).outcomes, strict=False)
@@ -179,8 +184,8 @@ class Bisection:
         """Execute the first `count` runs with these effects, unless that has been done."""
         tally = self.with_effects(effects)
         missing: Sequence[int] = range(len(tally.outcomes), count)
-        if count > len(self._campaign) or self.run_count + len(missing) > self._max_runs:
+        if count > len(self.campaign) or self.run_count + len(missing) > self._max_runs:
             raise OutOfRunsError
         metric = self._assertion.metric
-        seen = self._campaign.observations(self._executor, effects, missing, metric)
+        seen = self.campaign.observations(self._executor, effects, missing, metric)
         tally.outcomes += [each.value is not None and self._assertion.holds(each.value) for each in seen]

@@ -108,7 +108,7 @@ class Campaign:
 
     def observations(
         self,
-        executor: Executor,
+        executor: Executor | None,
         effects: Effects,
         places: Iterable[int],
         metric: str,
@@ -117,12 +117,17 @@ class Campaign:
         """Submit runs with these effects, and return an iterator that waits for what they show.
 
         Processes that the executor forks have the scenarios loaded. Calls that are passed to the executor
-        cannot be pickled. Raises ConfigError if the runs have no such metric.
+        cannot be pickled. Without an executor, they are executed in this process. Raises ConfigError if the
+        runs have no such metric.
         """
-        futures = []
+        futures: list[Future[Observation]] = []
         for place in places:
             self.scenario(effects, place)
-            futures.append(executor.submit(self.observe, effects, place, metric, jitter))
+            if executor is not None:
+                futures.append(executor.submit(self.observe, effects, place, metric, jitter))
+            else:
+                futures.append(Future())
+                futures[-1].set_result(self.observe(effects, place, metric, jitter))
         return self._results(futures, metric)
 
     def _results(self, futures: Sequence[Future[Observation]], metric: str) -> Iterator[Observation]:

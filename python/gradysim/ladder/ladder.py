@@ -35,7 +35,7 @@ class Rung:
     loss_ratio: float
 
 
-def climb(campaign: Campaign, metric: str, levels: range, executor: Executor) -> Iterator[Rung]:
+def climb(campaign: Campaign, metric: str, levels: range, executor: Executor | None = None) -> Iterator[Rung]:
     """Yield the levels of a campaign, from the most ideal one to the most real one.
 
     Runs at different levels have the same seeds, so that the interval of a change is narrow.

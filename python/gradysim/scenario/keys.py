@@ -238,7 +238,7 @@ DRIFT_RATE = Key(
     "clock.oscillator.driftRate",
     "node.drift_rate_ppm",
     quantity("ppm", at_least=-LARGEST_DRIFT_PPM, at_most=LARGEST_DRIFT_PPM),
-    "How much faster than simulated time the clock of the protocol runs, with its timers; not for protocols of"
+    "How much faster than simulated time the clock of the protocol runs, with its timers; not for those of"
     " the engine",
     default="0ppm",
 )

@@ -1,0 +1,117 @@
+"""What a bisection or an analysis of timers found, in sentences."""
+
+from collections.abc import Iterator
+
+from gradysim.ladder.bisect import Bisection, Verdict
+from gradysim.ladder.clashes import Diagnosis, Pattern
+from gradysim.ladder.desync import Desync
+from gradysim.ladder.why import Explanation
+
+_BECAUSE = {
+    "synchronized": "fire together, {apart} apart, every {period}",
+    "drifting": "drift past each other: they come close again and again, every {period}",
+    "hidden": "come from nodes that do not hear each other, so jitter does not help",
+    "saturated": "fill the channel, so jitter does not help: send less or shorter frames",
+    "random": "meet by chance, {apart} apart",
+}
+
+_RARE = 0.01
+"""Ratio of clashes below which a pattern is not worth a line."""
+
+
+def verdict_sentences(bisection: Bisection, verdict: Verdict) -> Iterator[str]:
+    """Yield where the protocol breaks."""
+    levels = bisection.campaign.levels
+    top = len(levels) - 1
+    if verdict.fails is None:
+        yield f"The protocol works up to the last level, {top} {levels[top].name}: {bisection.at_level(top)}."
+        return
+    if verdict.works is None:
+        yield f"The protocol already fails at level 0, {levels[0].name}: it works in {bisection.at_level(0)}."
+        return
+    works, fails = levels[verdict.works], levels[verdict.fails]
+    if verdict.is_sure:
+        yield (
+            f"The protocol works up to level {verdict.works}, {works.name}"
+            f" ({bisection.at_level(verdict.works)}), and fails from level {verdict.fails}, {fails.name}"
+            f" (it works in {bisection.at_level(verdict.fails)}). {verdict.run_count} runs, confidence"
+            f" {bisection.confidence:g}."
+        )
+        yield f"Level {verdict.fails} adds: {fails.adds}."
+    else:
+        yield (
+            f"Undecided after {verdict.run_count} runs: the protocol works at level {verdict.works},"
+            f" {works.name}, and fails at level {verdict.fails}, {fails.name}."
+        )
+    if verdict.smallest:
+        yield f"Smallest set of effects that makes it fail: {', '.join(verdict.smallest)}."
+
+
+def explanation_sentences(explanation: Explanation, works: int, fails: int) -> Iterator[str]:
+    """Yield what differs between a run at the level `works` and one at the level `fails`."""
+    for outcome, (before, after) in list(explanation.losses.items())[:2]:
+        if after > before:
+            yield (
+                f"Receptions lost to `{outcome.replace('_', ' ')}`: {after:.1%} at level {fails},"
+                f" {before:.1%} at level {works}."
+            )
+    yield from pattern_sentences(explanation.diagnosis, 2)
+    if (first := explanation.first) is not None:
+        cause = f" of {first.cause}" if first.cause else ""
+        yield (
+            f"First difference, at {first.time_s:.6f} s: the frame{cause} from {first.sender} at"
+            f" {first.receiver} is {_text_of(first.before)} at level {works} and {_text_of(first.after)} at"
+            f" level {fails}."
+        )
+
+
+def _text_of(outcome: str) -> str:
+    if outcome in ("", "delivered"):
+        return outcome or "not sent, or out of range,"
+    return f"lost to `{outcome.replace('_', ' ')}`"
+
+
+def desync_sentences(found: Desync) -> Iterator[str]:
+    """Yield which timers clash, and the jitter that they need."""
+    diagnosis = found.diagnosis
+    if not diagnosis.clashes:
+        yield f"None of {diagnosis.receptions:,} receptions was lost to another frame."
+        return
+    yield (
+        f"{diagnosis.clashes:,} of {diagnosis.receptions:,} receptions were lost to another frame"
+        f" ({diagnosis.clashes / diagnosis.receptions:.1%})."
+    )
+    yield from pattern_sentences(diagnosis, 5)
+    if found.jitter_s is None:
+        yield "No jitter was tried: the clashes are too few, or jitter does not help against them."
+        return
+    named = " and ".join(f'timer "{timer}" of {group}' for group, timer in found.timers)
+    first, best = found.trials[0], max(trial.delivery for trial in found.trials)
+    chosen = next(trial for trial in found.trials if trial.jitter_s == found.jitter_s)
+    yield (
+        f"Delay {named} by a random time of up to {text_of_time(found.jitter_s)}: {first.delivery:.1%} of the"
+        f" receptions arrive without it, {chosen.delivery:.1%} with it, and {best:.1%} at best"
+        f" ({found.run_count} runs)."
+    )
+
+
+def pattern_sentences(diagnosis: Diagnosis, most: int) -> Iterator[str]:
+    """Yield a line for each of the most frequent patterns of clashes; rare ones are left out."""
+    for pattern in diagnosis.patterns[:most]:
+        if pattern.count >= diagnosis.clashes * _RARE:
+            yield f"  {pattern.count / diagnosis.clashes:4.0%} of them: {_text_of_pattern(pattern)}"
+
+
+def _text_of_pattern(pattern: Pattern) -> str:
+    because = _BECAUSE[pattern.verdict].format(
+        apart=text_of_time(pattern.apart_s), period=text_of_time(pattern.period_s)
+    )
+    return f"{' and '.join(map(str, pattern.origins))}: {because}"
+
+
+def text_of_time(seconds: float) -> str:
+    """Return `40 ms`."""
+    for unit, size in (("s", 1), ("ms", 1e-3), ("µs", 1e-6)):
+        if seconds >= size:
+            return f"{seconds / size:.3g} {unit}"
+    return "0 s" if seconds == 0 else f"{seconds * 1e9:.3g} ns"
