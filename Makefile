@@ -113,6 +113,11 @@ viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer
 
 figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of their how-to pages.
 	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/how-to/plot-a-study.md docs/how-to/compare-two-studies.md | sh -e
+	gradysim ladder configs/zigzag.ini -c ZigZag5Synchronised --metric "groundStation data" -n 5 \
+	  --set sim-time-limit=10min --plot docs/pictures/ladder/ladder.png
+	gradysim desync configs/zigzag.ini -c ZigZag5Synchronised --metric "groundStation data" -n 2 \
+	  --set sim-time-limit=10min --plot docs/pictures/ladder/jitter.png
+	rm docs/pictures/ladder/*.csv docs/pictures/ladder/*.json
 	cp results/line.png results/diff.png results/outcomes.png results/cdf.png results/time.png results/map.png docs/pictures/plots
 	cp results/compare.png docs/pictures/plots
 

@@ -5,6 +5,9 @@ from dataclasses import dataclass
 from random import Random
 
 from gradysim.results.scenario_run import ScenarioRun
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.native_protocols import NativeProtocol
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
 
@@ -23,12 +26,14 @@ class Jitter:
     def add_to(self, run: ScenarioRun, scenario: Scenario) -> None:
         """Delay the timers of a run that has not begun.
 
-        The delays are drawn from random streams of their own, so that all other draws stay the same.
+        The delays are drawn from random streams of their own, so that all other draws stay the same. Raises
+        ConfigError for a protocol of the engine.
         """
         for spec in scenario.nodes:
             group = spec.group if spec.name == spec.group else f"{spec.group}[*]"
             names = {timer for of_group, timer in self.timers if of_group == group}
             if names:
+                _check_delays(spec)
                 provider = run.node(spec.name).provider
                 stream = Random(f"{scenario.seed} {spec.id}")
                 provider.schedule_timer = self._delayed(provider.schedule_timer, names, stream)
@@ -41,3 +46,9 @@ class Jitter:
             schedule(timer, timestamp + delay_s)
 
         return schedule_later
+
+
+def _check_delays(spec: NodeSpec) -> None:
+    if issubclass(spec.protocol, NativeProtocol):
+        text = f"{spec.name}: timers of {spec.protocol.__name__}, a protocol of the engine, cannot be delayed"
+        raise ConfigError(text, spec.protocol_sources.get(""), expected="the same protocol in Python")

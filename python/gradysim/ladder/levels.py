@@ -80,33 +80,33 @@ _FREE_SPACE = {"*.radioMedium.pathLoss.typename": '"FreeSpacePathLoss"'}
 _RADIO = "*.*.wlan[*].radio"
 
 LEVELS = (
-    Level("ideal", "nothing: each message arrives at once, at any distance"),
+    Level("ideal", "nothing: messages arrive at once, everywhere"),
     Level(
         "range",
-        "messages arrive within the range of the radio only",
+        "the range of the radio",
         {f"{_RADIO}.transmitter.communicationRange": _UNLIMITED},
     ),
     Level(
         "airtime",
-        "frames take their time on the air and on their way",
+        "time on the air and on the way",
         {"*.radioMedium.timing": '"instant"'},
         _takes_time("airtime", "channelAccess"),
     ),
     Level(
         "access",
-        "a sender waits until the channel around it is free",
+        "waiting until the channel is free",
         {"*.radioMedium.timing": '"airtime"'},
         _takes_time("channelAccess"),
     ),
     Level(
         "interference",
-        "real channel access: frames that overlap are lost",
+        "collisions: overlapping frames are lost",
         {"*.radioMedium.typename": f'"{UNIT_DISK}"', "*.radioMedium.timing": '"channelAccess"'},
         _has_radios,
     ),
     Level(
         "capture",
-        "a frame survives weaker interference, by its SNIR",
+        "survival of weaker interference",
         {
             f"{_RADIO}.receiver.collisionModel": '"overlap"',
             f"{_RADIO}.receiver.preambleDetection.typename": '""',
@@ -126,43 +126,43 @@ LEVELS = (
     ),
     Level(
         "shadowing",
-        "each link has a random gain that lasts",
+        "a random gain of each link",
         _FREE_SPACE,
         _path_loss_is("LogNormalShadowing"),
     ),
     Level(
         "fading",
-        "the gain of each link varies from frame to frame",
+        "gains that vary from frame to frame",
         _FREE_SPACE,
         _path_loss_is("RayleighFading", "RicianFading", "NakagamiFading"),
     ),
     Level(
         "ground",
-        "the ground reflects frames",
+        "reflection from the ground",
         _FREE_SPACE,
         _path_loss_is("TwoRayGroundReflection", "TwoRayInterference"),
     ),
     Level(
         "obstacles",
-        "obstacles weaken or block frames",
+        "obstacles that weaken or block frames",
         {"*.radioMedium.obstacleLoss.typename": '""'},
         _has_obstacles,
     ),
     Level(
         "antennas",
-        "antennas prefer directions",
+        "antennas that prefer directions",
         {f"{_RADIO}.antenna.typename": '"IsotropicAntenna"'},
         _has_antennas,
     ),
     Level(
         "autopilot",
-        "vehicles are flown by ArduPilot",
+        "vehicles flown by ArduPilot",
         {"*.*.mobility.typename": '"MasslessMobility"'},
         _has_autopilots,
     ),
     Level(
         "clocks",
-        "the clocks of nodes run fast or slow",
+        "clocks that run fast or slow",
         {"*.*.clock.oscillator.driftRate": "0ppm"},
         _has_drifting_clocks,
     ),

@@ -53,9 +53,9 @@ class Explanation:
 def explain(works: Replay, fails: Replay) -> Explanation:
     """Compare two recorded runs of the same scenario and seed, with different effects."""
     before, after = _ratios(works), _ratios(fails)
-    losses = {outcome: (before.get(outcome, 0.0), after.get(outcome, 0.0)) for outcome in {*before, *after}}
-    ordered = dict(sorted(losses.items(), key=lambda item: item[1][0] - item[1][1]))
-    return Explanation(ordered, _first_difference(works, fails), diagnose(fails))
+    losses = {name: (before.get(name, 0.0), after.get(name, 0.0)) for name in sorted({*before, *after})}
+    by_increase = dict(sorted(losses.items(), key=lambda item: item[1][0] - item[1][1]))
+    return Explanation(by_increase, _first_difference(works, fails), diagnose(fails))
 
 
 def _ratios(replay: Replay) -> Mapping[str, float]:

@@ -1,0 +1,65 @@
+"""`gradysim ladder`, `bisect` and `desync` on two UAVs that talk."""
+
+from pathlib import Path
+
+import pytest
+
+from gradysim.cli.errors import FAILED, MISTAKE, OK
+from python.cli.command import Gradysim
+
+pytest.importorskip("gradysim._netsim")
+
+LADDER = ("ladder", "test.ini", "--metric", "uavs[*] said", "-n", "2", "-j", "1")
+
+
+def test_each_level_of_the_scenario_has_a_row(gradysim: Gradysim) -> None:
+    done = gradysim(*LADDER)
+    levels = [line.split()[1] for line in done.stdout.splitlines() if line[:1].isdecimal()]
+    assert levels == ["ideal", "range", "airtime", "access", "interference", "capture", "noise"]
+    assert done.returncode == OK
+
+
+def test_levels_are_chosen_by_number_or_name(gradysim: Gradysim) -> None:
+    done = gradysim(*LADDER, "--levels", "1..access")
+    levels = [line.split()[1] for line in done.stdout.splitlines() if line[:1].isdecimal()]
+    assert levels == ["range", "airtime", "access"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "suggestion"),
+    [
+        (("--metric", "uavs[*] said", "--levels", "0..inteference"), "interference"),
+        (("--metric", "uavs[*] sad"), "uavs[*] said"),
+    ],
+)
+def test_a_wrong_name_is_told_with_the_nearest_one(
+    arguments: tuple[str, ...], suggestion: str, gradysim: Gradysim
+) -> None:
+    done = gradysim("ladder", "test.ini", "-n", "1", *arguments)
+    assert f"did you mean `{suggestion}`?" in done.stderr
+    assert done.returncode == MISTAKE
+
+
+def test_a_protocol_that_fails_is_told_with_level_and_run(gradysim: Gradysim) -> None:
+    done = gradysim(*LADDER, "-c", "Failing")
+    assert "level ideal, run 0: RuntimeError: spoilt" in done.stderr
+    assert done.returncode == FAILED
+
+
+def test_the_exit_code_of_bisect_tells_whether_it_works(gradysim: Gradysim, folder: Path) -> None:
+    works = gradysim("bisect", "test.ini", "--assert", "uavs[*] said >= 10", "-j", "1")
+    assert works.returncode == OK
+    fails = gradysim("bisect", "test.ini", "--assert", "uavs[*] said >= 11", "-j", "1")
+    assert fails.returncode == FAILED
+
+
+def test_an_assertion_has_a_relation(gradysim: Gradysim) -> None:
+    done = gradysim("bisect", "test.ini", "--assert", "uavs[*] said")
+    assert "QUANTITY >= NUMBER" in done.stderr
+    assert done.returncode == MISTAKE
+
+
+def test_nothing_is_delayed_if_nothing_clashes(gradysim: Gradysim) -> None:
+    done = gradysim("desync", "test.ini", "-n", "1")
+    assert "None of 20 receptions" in done.stdout
+    assert done.returncode == OK
