@@ -183,7 +183,7 @@ class Campaign:
                 [*settings, *self._settings],
                 self._seed,
                 self._names,
-                tuple(levels),
+                levels=tuple(levels),
             )
         return self._studies[key]
 
