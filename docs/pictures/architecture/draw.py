@@ -29,6 +29,7 @@ STEP, HEIGHT, WIDTH = 0.72, 0.58, 5.4
 CONTENTS = {
     "__main__": "python -m gradysim",
     "cli": "commands, options, processes of runs",
+    "ladder": "effects of real radios, level by level",
     "stepping": "runs in steps",
     "omnetpp_import": "OMNeT++ files",
     "prototype": "runs in Python",

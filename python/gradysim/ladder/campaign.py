@@ -13,8 +13,8 @@ from gradysim.ladder.jitter import Jitter
 from gradysim.ladder.levels import LEVELS, Level, added_sections, levels_of, settings_without
 from gradysim.ladder.reach import power_settings, range_settings
 from gradysim.replay.sink import ReplayWriter
-from gradysim.results.means import RunSummary
 from gradysim.results.outcomes import Outcomes
+from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, nearest
 from gradysim.scenario.ini import read_ini
 from gradysim.scenario.load import Study
@@ -168,10 +168,10 @@ class Campaign:
                 run.run_until()
         except Exception as failure:
             return Observation(None, failure=f"{type(failure).__name__}: {failure}")
-        summary = RunSummary.of(run.result().to_json_object())
-        losses, receptions = _losses(summary.fates)
-        value = summary.numbers.get(metric, 0.0)
-        return Observation(value, losses, receptions, quantities=tuple(summary.numbers))
+        result = run.result()
+        numbers = RunSummary.of(result.to_json_object()).numbers
+        losses, receptions = _losses(result.fates)
+        return Observation(numbers.get(metric, 0.0), losses, receptions, quantities=tuple(numbers))
 
     def _study(self, settings: Sequence[str], levels: Collection[str]) -> Study:
         key = (*settings, *levels)
