@@ -1,0 +1,103 @@
+"""Do `gradysim bisect` and `gradysim desync` name the flaws that were planted into small protocols?
+
+The expectations are those of the physics. They were written down before the first run.
+"""
+
+from collections.abc import Iterator
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from gradysim.ladder.assertion import Assertion
+from gradysim.ladder.bisect import Bisection
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.desync import desynchronize
+
+pytestmark = pytest.mark.verify
+
+FILE = Path(__file__).parent / "planted" / "planted.ini"
+_RUNS = 100
+
+
+@dataclass(frozen=True)
+class Flaw:
+    """One protocol.
+
+    Attributes:
+        config: Name of its configuration.
+        assertion: What it achieves in an ideal world.
+        level: The level that an expert would name.
+        effects: The smallest set of effects that makes it fail.
+        verdict: Why its messages clash; "" if they are not lost to each other.
+        timers: The timers that need jitter, "GROUP NAME".
+    """
+
+    config: str
+    assertion: str
+    level: str
+    effects: set[str]
+    verdict: str = ""
+    timers: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return self.config
+
+
+FLAWS = (
+    Flaw(
+        "LockStep",
+        "drones[*] heard >= 54",
+        "interference",
+        {"interference"},
+        "synchronized",
+        ("drones[*] heartbeat",),
+    ),
+    Flaw("NoRetry", "drones[*] landed >= 1", "fading", {"interference", "fading"}),
+    Flaw("Order", "base kept >= 18", "access", {"range", "airtime", "access"}),
+    Flaw("Upload", "sink collected >= 150", "access", {"airtime", "access"}),
+    Flaw("Timeout", "client answered >= 18", "airtime", {"airtime"}),
+    Flaw("Hidden", "sink share >= 0.9", "interference", {"interference"}, "hidden"),
+    Flaw("Edge", "drone corrections >= 45", "noise", {"interference", "noise"}),
+    Flaw("Wall", "drone corrections >= 45", "obstacles", {"interference", "obstacles"}),
+    Flaw("Overhead", "drone corrections >= 45", "antennas", {"interference", "antennas"}),
+    Flaw(
+        "Election",
+        "followers[*] wrong == 0",
+        "capture",
+        {"interference", "capture"},
+        "synchronized",
+        ("candidates[*] claim",),
+    ),
+    # All drones hear the poll at the same time, so their answers are as synchronized as timers.
+    Flaw("Poll", "base answers >= 342", "interference", {"interference"}, "synchronized"),
+    Flaw("OneHop", "base reports >= 95", "range", {"range"}),
+)
+
+each_flaw = pytest.mark.parametrize("flaw", FLAWS, ids=str)
+
+
+@pytest.fixture
+def executor() -> Iterator[Executor]:
+    with ThreadPoolExecutor(1) as executor:
+        yield executor
+
+
+@each_flaw
+def test_bisection_names_the_effect(flaw: Flaw, executor: Executor) -> None:
+    campaign = Campaign(FILE, flaw.config, run_count=_RUNS)
+    verdict = Bisection(campaign, Assertion.parse(flaw.assertion), executor).find()
+    assert verdict.works is not None
+    assert verdict.fails is not None
+    assert verdict.is_sure
+    assert campaign.levels[verdict.fails].name == flaw.level
+    assert set(verdict.smallest) == flaw.effects
+
+
+@each_flaw
+def test_desync_names_the_timers(flaw: Flaw, executor: Executor) -> None:
+    found = desynchronize(Campaign(FILE, flaw.config, run_count=2), executor)
+    assert tuple(f"{group} {timer}" for group, timer in found.timers) == flaw.timers
+    if flaw.verdict:
+        assert found.diagnosis.patterns[0].verdict == flaw.verdict
