@@ -85,7 +85,12 @@ def _explained(
         result_dir / f"{campaign.config}-{campaign.levels[level].name}-#{place}.html"
         for level in (works, fails)
     ]
-    for level, file in zip((works, fails), files, strict=True):
-        executor.submit(campaign.record, campaign.effects_up_to(level), place, file).result()
-    yield from explanation_sentences(explain(*map(read_replay, files)), works, fails)
+    recorded = [
+        executor.submit(campaign.record, campaign.effects_up_to(level), place, file)
+        for level, file in zip((works, fails), files, strict=True)
+    ]
+    of_works, of_fails = (each.result() for each in recorded)
+    replays = [read_replay(file) for file in files]
+    explanation = explain(replays[0], replays[1], (of_works, of_fails))
+    yield from explanation_sentences(explanation, works, fails)
     yield f"Look at both, run {place}: gradysim view {files[0]} {files[1]}"

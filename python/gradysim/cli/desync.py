@@ -15,17 +15,15 @@ if TYPE_CHECKING:
 
 DEFAULTS = CampaignOptions()
 
-_RARE = 0.01
-"""Ratio of clashes below which a pattern is not worth a line."""
-
 
 def desynchronize_timers(
     file: FileArgument,
     /,
     *,
     metric: Annotated[
-        str, Parameter(help="Quantity to print for each jitter, by the name that `gradysim means` prints.")
-    ] = "events",
+        str | None,
+        Parameter(help="Quantity to print for each jitter, by the name that `gradysim means` prints."),
+    ] = None,
     run_count: RunCountOption = 4,
     output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
@@ -58,7 +56,7 @@ def desynchronize_timers(
     return OK
 
 
-def curve_table(found: "Desync", metric: str) -> "Table":
+def curve_table(found: "Desync", metric: str | None) -> "Table":
     """Return a row for each jitter. An arrow marks the recommended one."""
     from rich import box
     from rich.table import Table
@@ -66,14 +64,13 @@ def curve_table(found: "Desync", metric: str) -> "Table":
     from gradysim.ladder.words import text_of_time
 
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-    for heading in ("jitter", "delivered", metric):
+    for heading in ("jitter", "delivered", *([metric] if metric else ())):
         table.add_column(heading, justify="right", no_wrap=True)
     for trial in found.trials:
         is_chosen = trial.jitter_s == found.jitter_s
-        table.add_row(
-            text_of_time(trial.jitter_s),
-            f"{trial.delivery:.1%}",
-            f"{trial.metric:.5g}{' ◀' if is_chosen else ''}",
-            style="bold" if is_chosen else None,
-        )
+        cells = [text_of_time(trial.jitter_s), f"{trial.delivery:.1%}"]
+        if metric:
+            cells.append("" if trial.metric is None else f"{trial.metric:.5g}")
+        cells[-1] += " ◀" if is_chosen else ""
+        table.add_row(*cells, style="bold" if is_chosen else None)
     return table

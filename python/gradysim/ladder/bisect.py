@@ -33,9 +33,11 @@ class Tally:
 
     Attributes:
         outcomes: Whether the assertion holds, by the position of the run.
+        exceptions: Those of the runs that fail with one.
     """
 
     outcomes: list[bool] = field(default_factory=list)
+    exceptions: list[str] = field(default_factory=list)
 
     @property
     def ratio(self) -> float:
@@ -187,5 +189,6 @@ class Bisection:
         if count > len(self.campaign) or self.run_count + len(missing) > self._max_runs:
             raise OutOfRunsError
         metric = self._assertion.metric
-        seen = self.campaign.observations(self._executor, effects, missing, metric)
-        tally.outcomes += [each.value is not None and self._assertion.holds(each.value) for each in seen]
+        for seen in self.campaign.observations(self._executor, effects, missing, metric):
+            tally.outcomes.append(seen.value is not None and self._assertion.holds(seen.value))
+            tally.exceptions += [seen.failure] if seen.failure else []

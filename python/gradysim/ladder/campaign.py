@@ -28,6 +28,9 @@ _FIRST_WITH_RADIOS = "interference"
 _NOT_LOST = {"delivered", "below_sensitivity", "in_air"}
 """Outcomes of receptions that are not losses, or that are out of range."""
 
+LOST_MESSAGES = ("queue_overflow", "retry_limit", "channel_access_failure")
+"""Outcomes of messages that their sender gave up."""
+
 
 @dataclass(frozen=True)
 class Observation:
@@ -37,6 +40,7 @@ class Observation:
         value: The metric; None if the run failed.
         losses: {outcome: receptions lost} of frames at their addressees.
         receptions: Receptions within the range.
+        messages: {outcome: messages}.
         failure: Why the run failed: the exception of a protocol, or the end of its process.
         quantities: Names of all quantities of the run.
     """
@@ -44,6 +48,7 @@ class Observation:
     value: float | None
     losses: Mapping[str, int] = field(default_factory=dict)
     receptions: int = 0
+    messages: Mapping[str, int] = field(default_factory=dict)
     failure: str = ""
     quantities: tuple[str, ...] = ()
 
@@ -145,14 +150,18 @@ class Campaign:
                 )
             yield seen
 
-    def record(self, effects: Effects, place: int, path: Path) -> None:
-        """Write the replay of the run at a position with these effects. Raises what protocols raise."""
+    def record(self, effects: Effects, place: int, path: Path) -> Mapping[str, int]:
+        """Write the replay of the run at a position with these effects, and return {outcome: messages}.
+
+        Raises what protocols raise.
+        """
         recorder = ReplayWriter(path)
         with (
             contextlib.redirect_stdout(io.StringIO()),
             start(self.scenario(effects, place), replay=recorder) as run,
         ):
             run.run_until()
+        return _messages(run.result().fates)
 
     def observe(self, effects: Effects, place: int, metric: str, jitter: Jitter | None = None) -> Observation:
         """Run the scenario at a position with these effects, and return what it showed.
@@ -171,7 +180,9 @@ class Campaign:
         result = run.result()
         numbers = RunSummary.of(result.to_json_object()).numbers
         losses, receptions = _losses(result.fates)
-        return Observation(numbers.get(metric, 0.0), losses, receptions, quantities=tuple(numbers))
+        messages = _messages(result.fates)
+        value = numbers.get(metric, 0.0)
+        return Observation(value, losses, receptions, messages, quantities=tuple(numbers))
 
     def _study(self, settings: Sequence[str], levels: Collection[str]) -> Study:
         key = (*settings, *levels)
@@ -214,3 +225,12 @@ def _losses(outcomes: Outcomes) -> tuple[dict[str, int], int]:
             if outcome not in _NOT_LOST and count:
                 losses[outcome] = losses.get(outcome, 0) + count
     return losses, receptions
+
+
+def _messages(outcomes: Outcomes) -> dict[str, int]:
+    """Return the number of messages by outcome, of all kinds."""
+    messages: dict[str, int] = {}
+    for counts in outcomes["messages"].values():
+        for outcome, count in counts.items():
+            messages[outcome] = messages.get(outcome, 0) + count
+    return messages

@@ -1,15 +1,17 @@
 """Clashes: which timers of which nodes send into each other, from the replay of a run."""
 
-from bisect import bisect_right
+import math
+from bisect import bisect_left, bisect_right
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from statistics import median
 from typing import Any, Literal
 
 from gradysim.replay.reader import Replay
-from gradysim.replay.tables import BROADCAST, EVENT_KINDS, OUTCOMES
+from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
 
 Verdict = Literal["saturated", "hidden", "synchronized", "drifting", "random"]
 
@@ -24,6 +26,8 @@ _LOST_TO_OTHERS = {
     )
 }
 _TIMER = "timer "
+_ANSWER = "packet"
+_DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
 _NS_PER_S = 1e9
 
 _SATURATED = 0.7
@@ -31,6 +35,12 @@ _SATURATED = 0.7
 
 _MOST = 0.8
 """Share of clashes that makes a verdict."""
+
+_OFTEN = 0.2
+"""Least share of frames that are due together if nodes are synchronized."""
+
+_MORE_THAN_CHANCE = 3
+"""Factor by which frames of synchronized nodes are due together more often than at random times."""
 
 
 @dataclass(frozen=True)
@@ -41,12 +51,7 @@ class Origin:
     cause: str
 
     def __str__(self) -> str:
-        name = self.cause.removeprefix(_TIMER)
-        return (
-            f'timer "{name}" of {self.group}'
-            if self.is_timer
-            else f"{self.cause or 'an answer'} of {self.group}"
-        )
+        return f"{text_of_cause(self.cause)} of {self.group}"
 
     @property
     def is_timer(self) -> bool:
@@ -59,6 +64,13 @@ class Origin:
         return self.cause.removeprefix(_TIMER)
 
 
+def text_of_cause(cause: str) -> str:
+    """Return `timer "heartbeat"`, or the name of another callback."""
+    if cause.startswith(_TIMER):
+        return f'timer "{cause.removeprefix(_TIMER)}"'
+    return f"handle_{cause}" if cause in (_ANSWER, "telemetry") else cause or "the MAC"
+
+
 @dataclass(frozen=True)
 class Clash:
     """One reception that another frame destroyed, or that was missed because of it.
@@ -67,7 +79,7 @@ class Clash:
         time_s: Start of the lost frame.
         lost: Origin of the lost frame.
         other: Origin of the other one.
-        apart_s: Time between the two timers; between the frames if one of them has no timer.
+        apart_s: Time between what sent the two frames: timers, or the messages that they answer.
         is_hidden: Whether the two senders do not hear each other.
         airtime_s: Duration of the longer frame.
     """
@@ -89,8 +101,7 @@ class Pattern:
         count: Number of clashes.
         verdict: Why they clash.
         period_s: Median time between two expirations of the timer, 0 if there is none.
-        apart_s: Median time between the two timers.
-        nodes: Number of nodes of these groups that send.
+        apart_s: Median time between what sent the two frames.
     """
 
     origins: tuple[Origin, ...]
@@ -131,7 +142,7 @@ def diagnose(replay: Replay) -> Diagnosis:
         Pattern(
             origins,
             len(alike),
-            _verdict(alike, run.busiest),
+            _verdict(alike, run),
             run.period_s(origins),
             median(each.apart_s for each in alike),
         )
@@ -142,29 +153,39 @@ def diagnose(replay: Replay) -> Diagnosis:
     return Diagnosis(len(run.receptions), len(clashes), run.busiest, tuple(patterns), airtime_s)
 
 
-def _verdict(clashes: Sequence[Clash], busiest: float) -> Verdict:
-    def share(which: Sequence[bool]) -> float:
-        return sum(which) / len(which)
-
-    if busiest >= _SATURATED:
+def _verdict(clashes: Sequence[Clash], run: "_Run") -> Verdict:
+    if run.busiest >= _SATURATED:
         return "saturated"
-    if share([each.is_hidden for each in clashes]) >= _MOST:
+    if _is_synchronized(clashes, run):
+        return "synchronized"
+    if _drifts(clashes):
+        return "drifting"
+    if sum(each.is_hidden for each in clashes) >= _MOST * len(clashes):
         return "hidden"
-    if not all(each.lost.is_timer and each.other.is_timer for each in clashes):
-        return "random"
-    if share([each.apart_s < 2 * each.airtime_s for each in clashes]) >= _MOST:
-        changes = {round(each.apart_s, 9) for each in clashes}
-        return "drifting" if _drifts(clashes, changes) else "synchronized"
     return "random"
 
 
-def _drifts(clashes: Sequence[Clash], distances: set[float]) -> bool:
+def _is_synchronized(clashes: Sequence[Clash], run: "_Run") -> bool:
+    """Return whether frames of the two origins are due together more often than by chance.
+
+    "Together" is as close as in most of the clashes. Frames that overlap by chance are due at any distance
+    below their duration, so this alone would not distinguish them.
+    """
+    distances = sorted(each.apart_s for each in clashes)
+    apart_s = distances[math.ceil(_MOST * len(distances)) - 1]
+    share, by_chance = run.together(clashes[0].lost, clashes[0].other, apart_s)
+    return share >= max(_OFTEN, _MORE_THAN_CHANCE * by_chance)
+
+
+def _drifts(clashes: Sequence[Clash]) -> bool:
     """Return whether clashes come in series in which the distance of the timers changes step by step.
 
     Timers in lock-step keep their distance. Independent ones have distances in any order.
     """
+    if not all(each.lost.is_timer and each.other.is_timer for each in clashes):
+        return False
     steps = [abs(after.apart_s - before.apart_s) for before, after in pairwise(clashes)]
-    return len(distances) > len(clashes) / 2 and len(steps) > 2 and max(steps) > 0 and _is_smooth(steps)
+    return len(steps) > 2 and _is_smooth(steps)
 
 
 def _is_smooth(steps: Sequence[float]) -> bool:
@@ -187,6 +208,7 @@ class _Run:
         self._heard = {(frame, receiver) for frame, receiver, _ in self.receptions}
         self._interferers = _interferers(replay)
         self._timers = _timers(replay)
+        self._end_ns = replay.end_s * _NS_PER_S
         self.busiest = self._share_of_the_busiest(replay.end_s)
 
     def clashes(self) -> Iterator[Clash]:
@@ -204,6 +226,48 @@ class _Run:
             for before, after in pairwise(times)
         ]
         return median(gaps) / _NS_PER_S if gaps else 0.0
+
+    def together(self, one: Origin, other: Origin, apart_s: float) -> tuple[float, float]:
+        """Return the share of frames that are due together with one of another node, and that by chance.
+
+        The share is that of the origin with the larger one. Chance means that frames are due at random times.
+        """
+        window_ns = apart_s * _NS_PER_S + 1  # times are rounded
+        shares = [self._share_together(*pair, window_ns) for pair in ((one, other), (other, one))]
+        return max(shares)
+
+    def _share_together(self, one: Origin, other: Origin, window_ns: float) -> tuple[float, float]:
+        due, others = self._due[one], self._due[other]
+        together = 0
+        expected = 0.0
+        rate = 2 * window_ns / max(1.0, self._end_ns)
+        frames_of = Counter(node for _, node in others)
+        for time_ns, node in due:
+            first = bisect_left(others, (math.ceil(time_ns - window_ns), -1))
+            last = bisect_right(others, (math.floor(time_ns + window_ns), math.inf))
+            together += any(others[place][1] != node for place in range(first, last))
+            expected += 1 - math.exp(-rate * (len(others) - frames_of[node]))
+        return together / len(due), expected / len(due)
+
+    @cached_property
+    def _due(self) -> Mapping[Origin, Sequence[tuple[int, int]]]:
+        """{origin: (time in ns at which it was due, node) of each of its frames}, by time, without retries."""
+        found: defaultdict[Origin, list[tuple[int, int]]] = defaultdict(list)
+        frames = self._frames
+        for frame, (kind, retry) in enumerate(zip(frames["kind"], frames["retry"], strict=True)):
+            if kind in _DATA and not retry:
+                found[self._origin(frame)].append((self._due_ns(frame), frames["node"][frame]))
+        return {origin: sorted(due) for origin, due in found.items()}
+
+    @cached_property
+    def _answerable(self) -> Mapping[int, Sequence[int]]:
+        """{node: ends in ns of the messages that it received}."""
+        found: defaultdict[int, list[int]] = defaultdict(list)
+        for frame, receiver, outcome in self.receptions:
+            if OUTCOMES[outcome] == "delivered" and self._frames["kind"][frame] in _DATA:
+                if self._is_for(frame, receiver):
+                    found[receiver].append(self._ends[frame])
+        return {node: sorted(ends) for node, ends in found.items()}
 
     def _clash(self, frame: int, other: int) -> Clash:
         frames = self._frames
@@ -224,12 +288,17 @@ class _Run:
         return Origin(self._groups[self._frames["node"][frame]], self._frames["cause"][frame])
 
     def _due_ns(self, frame: int) -> int:
-        """Return when the timer that sent a frame expired; for other frames their start."""
+        """Return when the timer expired or the message arrived that sent a frame, or the frame's start."""
         start: int = self._frames["time_ns"][frame]
         cause: str = self._frames["cause"][frame]
-        times = self._timers.get((self._frames["node"][frame], cause.removeprefix(_TIMER)), ())
+        node = self._frames["node"][frame]
+        times: Sequence[int] = ()
+        if cause.startswith(_TIMER):
+            times = self._timers.get((node, cause.removeprefix(_TIMER)), ())
+        elif cause == _ANSWER:
+            times = self._answerable.get(node, ())
         index = bisect_right(times, start)
-        return times[index - 1] if cause.startswith(_TIMER) and index else start
+        return times[index - 1] if index else start
 
     def _other(self, frame: int, receiver: int, outcome: int) -> int | None:
         """Return the frame that destroyed a reception: the one that overlaps with it most."""

@@ -4,12 +4,16 @@ import tempfile
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from gradysim.ladder.campaign import Campaign, Observation
 from gradysim.ladder.clashes import Diagnosis, Pattern, diagnose
 from gradysim.ladder.jitter import Jitter
 from gradysim.replay.reader import read_replay
+
+_ANY_METRIC = "events"
+"""A quantity that all runs have."""
 
 _SUFFICIENT = 0.01
 """Distance to the best delivery ratio that is good enough."""
@@ -25,12 +29,12 @@ class Trial:
     Attributes:
         jitter_s: The longest delay of the timers; 0 without jitter.
         delivery: Ratio of the receptions within the range that were not lost.
-        metric: Mean of the metric over the runs.
+        metric: Mean of the metric over the runs; None without one.
     """
 
     jitter_s: float
     delivery: float
-    metric: float
+    metric: float | None
 
 
 @dataclass(frozen=True)
@@ -57,13 +61,13 @@ class Desync:
         return 1 + len(self.trials) * self.runs_per_trial
 
 
-def desynchronize(campaign: Campaign, executor: Executor, metric: str = "events") -> Desync:
+def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: str | None = None) -> Desync:
     """Find the timers of a scenario that clash, and the jitter that they need.
 
     Args:
         campaign: The configuration; each jitter gets all of its runs.
         executor: Executes the runs, see `Campaign.observations`.
-        metric: A quantity to report for each jitter.
+        metric: A quantity to report for each jitter; None for none.
 
     Raises:
         ConfigError: The runs have no such metric.
@@ -71,7 +75,11 @@ def desynchronize(campaign: Campaign, executor: Executor, metric: str = "events"
     """
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "run.html")
-        executor.submit(campaign.record, campaign.all_effects, 0, path).result()
+        record = partial(campaign.record, campaign.all_effects, 0, path)
+        if executor is None:
+            record()
+        else:
+            executor.submit(record).result()
         diagnosis = diagnose(read_replay(path))
     fixable = [pattern for pattern in diagnosis.patterns if is_fixable(pattern)]
     if not fixable or sum(each.count for each in fixable) < _LEAST_CLASHES * diagnosis.receptions:
@@ -87,20 +95,20 @@ def desynchronize(campaign: Campaign, executor: Executor, metric: str = "events"
             executor,
             campaign.all_effects,
             range(len(campaign)),
-            metric,
+            metric or _ANY_METRIC,
             Jitter(frozenset(timers), jitter_s),
         )
         for jitter_s in _jitters(diagnosis.airtime_s, period_s)
     }
-    trials = tuple(_trial(jitter_s, list(seen)) for jitter_s, seen in observations.items())
+    trials = tuple(_trial(jitter_s, list(seen), metric) for jitter_s, seen in observations.items())
     best = max(trial.delivery for trial in trials)
     smallest = next(each.jitter_s for each in trials if each.delivery >= best * (1 - _SUFFICIENT))
     return Desync(diagnosis, timers, trials, smallest, len(campaign))
 
 
 def is_fixable(pattern: Pattern) -> bool:
-    """Return whether jitter helps: timers fire together, or come close again and again."""
-    return pattern.verdict in ("synchronized", "drifting")
+    """Return whether jitter can help: timers fire together, or come close again and again."""
+    return pattern.verdict in ("synchronized", "drifting") and all(each.is_timer for each in pattern.origins)
 
 
 def _jitters(airtime_s: float, period_s: float) -> Sequence[float]:
@@ -118,12 +126,12 @@ def _rounded(seconds: float) -> float:
     return float(f"{seconds:.1e}")
 
 
-def _trial(jitter_s: float, seen: Sequence[Observation]) -> Trial:
+def _trial(jitter_s: float, seen: Sequence[Observation], metric: str | None) -> Trial:
     receptions = sum(each.receptions for each in seen)
     lost = sum(sum(each.losses.values()) for each in seen)
     values = [each.value for each in seen if each.value is not None]
     return Trial(
         jitter_s,
         1 - lost / receptions if receptions else 1.0,
-        sum(values) / len(values) if values else 0.0,
+        sum(values) / len(values) if metric and values else None,
     )

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from gradysim.ladder.campaign import Campaign, Observation
+from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, Observation
 from gradysim.ladder.levels import Level
 from gradysim.results.paired import Estimate, compare_pairs, estimate
 
@@ -23,8 +23,8 @@ class Rung:
         level: What it adds.
         metric: Mean over the runs, with its interval.
         change: From the level before, paired by seed; None at the first level that was run.
-        loss: The most frequent outcome of lost receptions, or "".
-        loss_ratio: Its share of the receptions within the range.
+        loss: The most frequent outcome of lost receptions or messages, or "".
+        loss_ratio: Its share of the receptions within the range, or of the messages.
     """
 
     number: int
@@ -90,11 +90,14 @@ def _value(seen: Observation, level: Level, place: int) -> float:
 
 
 def _most_frequent_loss(seen: Sequence[Observation]) -> tuple[str, float]:
+    """Return the loss with the largest ratio: of the receptions, or of the messages."""
     losses: Counter[str] = Counter()
+    messages: Counter[str] = Counter()
     for each in seen:
         losses.update(each.losses)
-    receptions = sum(each.receptions for each in seen)
-    if not losses or not receptions:
-        return "", 0.0
-    outcome, count = losses.most_common(1)[0]
-    return outcome, count / receptions
+        messages.update(each.messages)
+    receptions = max(1, sum(each.receptions for each in seen))
+    message_count = max(1, messages.total())
+    ratios = {outcome: count / receptions for outcome, count in losses.items()}
+    ratios |= {outcome: messages[outcome] / message_count for outcome in LOST_MESSAGES if messages[outcome]}
+    return max(ratios.items(), key=lambda item: item[1], default=("", 0.0))

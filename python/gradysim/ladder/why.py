@@ -5,11 +5,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gradysim.ladder.campaign import LOST_MESSAGES
 from gradysim.ladder.clashes import Diagnosis, diagnose
 from gradysim.replay.reader import Replay
 from gradysim.replay.tables import BROADCAST, FRAME_KINDS, NOT_LOST
 
 _NS_PER_S = 1e9
+_TOO_WEAK = "below_sensitivity"
 _DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
 
 
@@ -22,7 +24,7 @@ class Difference:
         sender: Name of the node.
         receiver: Name of the node.
         cause: The callback that sent it, such as `timer heartbeat`.
-        before: Outcome at the level that works; "" if there is no such reception.
+        before: Outcome at the level that works; "" if the frame was not sent there.
         after: Outcome at the level that fails; likewise.
     """
 
@@ -40,29 +42,56 @@ class Explanation:
 
     Attributes:
         losses: {outcome: (ratio where it works, ratio where it fails)} of the receptions at the addressees of
-            messages; the largest increase first.
+            messages; the largest increase first. `below_sensitivity` includes what is out of range.
+        messages: The same for messages that their sender gave up.
         first: The first reception that ends differently; None if all end alike.
         diagnosis: The clashes where it fails.
     """
 
     losses: Mapping[str, tuple[float, float]]
+    messages: Mapping[str, tuple[float, float]]
     first: Difference | None
     diagnosis: Diagnosis
 
 
-def explain(works: Replay, fails: Replay) -> Explanation:
-    """Compare two recorded runs of the same scenario and seed, with different effects."""
-    before, after = _ratios(works), _ratios(fails)
-    losses = {name: (before.get(name, 0.0), after.get(name, 0.0)) for name in sorted({*before, *after})}
-    by_increase = dict(sorted(losses.items(), key=lambda item: item[1][0] - item[1][1]))
-    return Explanation(by_increase, _first_difference(works, fails), diagnose(fails))
+def explain(
+    works: Replay, fails: Replay, messages: tuple[Mapping[str, int], Mapping[str, int]]
+) -> Explanation:
+    """Compare two recorded runs of the same scenario and seed, with different effects.
+
+    `messages` are the outcomes of the messages of both, as `Campaign.record` returns them.
+    """
+    given_up = [
+        {name: each.get(name, 0) / max(1, sum(each.values())) for name in LOST_MESSAGES} for each in messages
+    ]
+    return Explanation(
+        _side_by_side(_ratios(works), _ratios(fails)),
+        _side_by_side(*given_up),
+        _first_difference(works, fails),
+        diagnose(fails),
+    )
+
+
+def _side_by_side(
+    before: Mapping[str, float], after: Mapping[str, float]
+) -> Mapping[str, tuple[float, float]]:
+    ratios = {outcome: (before.get(outcome, 0.0), after.get(outcome, 0.0)) for outcome in {*before, *after}}
+    return dict(sorted(ratios.items(), key=lambda item: (item[1][0] - item[1][1], item[0])))
 
 
 def _ratios(replay: Replay) -> Mapping[str, float]:
     """Return the ratio of each outcome of losses among the receptions at addressees of messages."""
     counts: Counter[str] = Counter(outcome for *_, outcome in _receptions(replay))
-    total = sum(counts.values())
-    return {outcome: count / total for outcome, count in counts.items() if outcome not in NOT_LOST}
+    frames: Any = replay.table("frames")
+    total = 0  # addressees
+    for kind, destination, receptions, unnoticed in zip(
+        frames["kind"], frames["destination"], frames["receptions"], frames["unnoticed"], strict=True
+    ):
+        if kind in _DATA:
+            total += receptions + unnoticed if destination == BROADCAST else 1
+    counts[_TOO_WEAK] = total - counts.total()
+    lost = (outcome for outcome in counts if outcome == _TOO_WEAK or outcome not in NOT_LOST)
+    return {outcome: counts[outcome] / max(1, total) for outcome in lost}
 
 
 def _receptions(replay: Replay) -> Iterator[tuple[int, int, str]]:
@@ -77,33 +106,41 @@ def _first_difference(works: Replay, fails: Replay) -> Difference | None:
     """Compare frames by sender and their number among the frames of the sender."""
     tables: list[Any] = [each.table("frames") for each in (works, fails)]
     outcomes = [_by_number(each, table) for each, table in zip((works, fails), tables, strict=True)]
+    sent = [_sent(table) for table in tables]
     names = {node["id"]: node["name"] for node in fails.run["nodes"]}
     found: list[tuple[int, Difference]] = []
     for key in outcomes[0].keys() | outcomes[1].keys():
-        (frame, before), (other, after) = (each.get(key, (None, "")) for each in outcomes)
+        sender, receiver, number = key
+        before, after = (
+            outcome.get(key, _TOO_WEAK if (sender, number) in frames else "")
+            for outcome, frames in zip(outcomes, sent, strict=True)
+        )
         if before != after:
-            table, row = (tables[0], frame) if other is None else (tables[1], other)
-            time_ns = table["time_ns"][row]
-            sender, receiver, _ = key
-            cause = table["cause"][row]
-            found.append(
-                (
-                    time_ns,
-                    Difference(time_ns / _NS_PER_S, names[sender], names[receiver], cause, before, after),
-                )
-            )
+            table = 1 if after else 0
+            frame = sent[table][sender, number]
+            time_ns, cause = tables[table]["time_ns"][frame], tables[table]["cause"][frame]
+            difference = Difference(time_ns / _NS_PER_S, names[sender], names[receiver], cause, before, after)
+            found.append((time_ns, difference))
     return min(found, key=lambda each: (each[0], each[1].receiver))[1] if found else None
 
 
-def _by_number(replay: Replay, frames: Any) -> dict[tuple[int, int, int], tuple[int, str]]:
-    """Return {(sender, receiver, number of the frame among the sender's): (frame, outcome)}."""
-    sent: Counter[int] = Counter()
-    numbers = []
-    for sender, kind in zip(frames["node"], frames["kind"], strict=True):
-        numbers.append(sent[sender])
-        sent[sender] += kind in _DATA
-    return {
-        (frames["node"][frame], receiver, numbers[frame]): (frame, outcome)
-        for frame, receiver, outcome in _receptions(replay)
-        if outcome != "in_air"
-    }
+def _by_number(replay: Replay, frames: Any) -> dict[tuple[int, int, int], str]:
+    """Return {(sender, receiver, number of the frame among the sender's): outcome}."""
+    numbers = {frame: key for key, frame in _sent(frames).items()}
+    found = {}
+    for frame, receiver, outcome in _receptions(replay):
+        if outcome != "in_air":
+            sender, number = numbers[frame]
+            found[sender, receiver, number] = outcome
+    return found
+
+
+def _sent(frames: Any) -> dict[tuple[int, int], int]:
+    """Return {(sender, number of the frame among the sender's): frame} of the frames of messages."""
+    count: Counter[int] = Counter()
+    found = {}
+    for frame, (sender, kind) in enumerate(zip(frames["node"], frames["kind"], strict=True)):
+        if kind in _DATA:
+            found[sender, count[sender]] = frame
+            count[sender] += 1
+    return found

@@ -1,9 +1,9 @@
 """What a bisection or an analysis of timers found, in sentences."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gradysim.ladder.bisect import Bisection, Verdict
-from gradysim.ladder.clashes import Diagnosis, Pattern
+from gradysim.ladder.clashes import Diagnosis, Pattern, text_of_cause
 from gradysim.ladder.desync import Desync
 from gradysim.ladder.why import Explanation
 
@@ -14,6 +14,8 @@ _BECAUSE = {
     "saturated": "fill the channel, so jitter does not help: send less or shorter frames",
     "random": "meet by chance, {apart} apart",
 }
+_ANSWERS = "send together, {apart} apart: they need a random delay before each message"
+"""What is said of synchronized frames without a timer."""
 
 _RARE = 0.01
 """Ratio of clashes below which a pattern is not worth a line."""
@@ -28,6 +30,7 @@ def verdict_sentences(bisection: Bisection, verdict: Verdict) -> Iterator[str]:
         return
     if verdict.works is None:
         yield f"The protocol already fails at level 0, {levels[0].name}: it works in {bisection.at_level(0)}."
+        yield from _exception_sentences(bisection, 0)
         return
     works, fails = levels[verdict.works], levels[verdict.fails]
     if verdict.is_sure:
@@ -43,32 +46,45 @@ def verdict_sentences(bisection: Bisection, verdict: Verdict) -> Iterator[str]:
             f"Undecided after {verdict.run_count} runs: the protocol works at level {verdict.works},"
             f" {works.name}, and fails at level {verdict.fails}, {fails.name}."
         )
+    yield from _exception_sentences(bisection, verdict.fails)
     if verdict.smallest:
         yield f"Smallest set of effects that makes it fail: {', '.join(verdict.smallest)}."
 
 
+def _exception_sentences(bisection: Bisection, level: int) -> Iterator[str]:
+    exceptions = bisection.at_level(level).exceptions
+    if exceptions:
+        yield f"{len(exceptions)} of the runs at level {level} end with an exception: {exceptions[0]}"
+
+
 def explanation_sentences(explanation: Explanation, works: int, fails: int) -> Iterator[str]:
     """Yield what differs between a run at the level `works` and one at the level `fails`."""
-    for outcome, (before, after) in list(explanation.losses.items())[:2]:
-        if after > before:
-            yield (
-                f"Receptions lost to `{outcome.replace('_', ' ')}`: {after:.1%} at level {fails},"
-                f" {before:.1%} at level {works}."
-            )
+    yield from _loss_sentences("Receptions", explanation.losses, works, fails)
+    yield from _loss_sentences("Messages", explanation.messages, works, fails)
     yield from pattern_sentences(explanation.diagnosis, 2)
-    if (first := explanation.first) is not None:
-        cause = f" of {first.cause}" if first.cause else ""
+    first = explanation.first
+    if first is None:
+        yield "All frames have the same outcomes at both levels. Only times differ, of frames or of timers."
+    else:
         yield (
-            f"First difference, at {first.time_s:.6f} s: the frame{cause} from {first.sender} at"
-            f" {first.receiver} is {_text_of(first.before)} at level {works} and {_text_of(first.after)} at"
-            f" level {fails}."
+            f"First difference, at {first.time_s:.6f} s: the frame of {text_of_cause(first.cause)} from"
+            f" {first.sender} at {first.receiver} is {_text_of(first.before)} at level {works} and"
+            f" {_text_of(first.after)} at level {fails}."
         )
 
 
+def _loss_sentences(
+    what: str, losses: Mapping[str, tuple[float, float]], works: int, fails: int
+) -> Iterator[str]:
+    """Yield the two largest increases."""
+    for outcome, (before, after) in list(losses.items())[:2]:
+        if after > before:
+            yield f"{what} {_text_of(outcome)}: {after:.1%} at level {fails}, {before:.1%} at level {works}."
+
+
 def _text_of(outcome: str) -> str:
-    if outcome in ("", "delivered"):
-        return outcome or "not sent, or out of range,"
-    return f"lost to `{outcome.replace('_', ' ')}`"
+    known = {"": "not sent", "delivered": "delivered", "below_sensitivity": "too weak or out of range"}
+    return known.get(outcome, f"lost to `{outcome.replace('_', ' ')}`")
 
 
 def desync_sentences(found: Desync) -> Iterator[str]:
@@ -83,10 +99,16 @@ def desync_sentences(found: Desync) -> Iterator[str]:
     )
     yield from pattern_sentences(diagnosis, 5)
     if found.jitter_s is None:
-        yield "No jitter was tried: the clashes are too few, or jitter does not help against them."
+        yield "No jitter was tried: the clashes are too few, or a delay of timers does not help against them."
         return
     named = " and ".join(f'timer "{timer}" of {group}' for group, timer in found.timers)
     first, best = found.trials[0], max(trial.delivery for trial in found.trials)
+    if found.jitter_s == 0:
+        yield (
+            f"A random delay of {named} does not help: {first.delivery:.1%} of the receptions arrive without"
+            f" it, {best:.1%} at best ({found.run_count} runs)."
+        )
+        return
     chosen = next(trial for trial in found.trials if trial.jitter_s == found.jitter_s)
     yield (
         f"Delay {named} by a random time of up to {text_of_time(found.jitter_s)}: {first.delivery:.1%} of the"
@@ -103,7 +125,8 @@ def pattern_sentences(diagnosis: Diagnosis, most: int) -> Iterator[str]:
 
 
 def _text_of_pattern(pattern: Pattern) -> str:
-    because = _BECAUSE[pattern.verdict].format(
+    is_answer = pattern.verdict == "synchronized" and not all(each.is_timer for each in pattern.origins)
+    because = (_ANSWERS if is_answer else _BECAUSE[pattern.verdict]).format(
         apart=text_of_time(pattern.apart_s), period=text_of_time(pattern.period_s)
     )
     return f"{' and '.join(map(str, pattern.origins))}: {because}"
