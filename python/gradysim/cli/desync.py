@@ -31,6 +31,7 @@ def desynchronize_timers(
     """Find timers of nodes that send into each other, and the random delay (jitter) that they need."""
     from gradysim.cli.campaign import campaign_of, executor_of, save
     from gradysim.cli.console import console
+    from gradysim.ladder.campaign import FailedRunError
     from gradysim.ladder.desync import desynchronize
     from gradysim.ladder.words import desync_sentences
     from gradysim.scenario.errors import ConfigError
@@ -46,7 +47,8 @@ def desynchronize_timers(
     except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
     except Exception as failure:
-        print(f"{options.config} run 0: {failure}", file=sys.stderr)
+        place = "" if isinstance(failure, FailedRunError) else f"{options.config} run 0: "
+        print(f"{place}{failure}", file=sys.stderr)
         return FAILED
     terminal = console()
     terminal.print(*desync_sentences(found), sep="\n", markup=False, highlight=False)

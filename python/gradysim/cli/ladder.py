@@ -38,7 +38,8 @@ def climb_ladder(
     """Run a configuration with more and more effects of real radios, and print what each level changes."""
     from gradysim.cli.campaign import campaign_of, executor_of, save
     from gradysim.cli.console import console
-    from gradysim.ladder.ladder import FailedRunError, climb
+    from gradysim.ladder.campaign import FailedRunError
+    from gradysim.ladder.ladder import climb
     from gradysim.scenario.errors import ConfigError
 
     try:

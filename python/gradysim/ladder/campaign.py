@@ -32,6 +32,10 @@ LOST_MESSAGES = ("queue_overflow", "retry_limit", "channel_access_failure")
 """Outcomes of messages that their sender gave up."""
 
 
+class FailedRunError(Exception):
+    """A run failed: a protocol raised an exception."""
+
+
 @dataclass(frozen=True)
 class Observation:
     """What one run showed.

@@ -65,10 +65,10 @@ class Origin:
 
 
 def text_of_cause(cause: str) -> str:
-    """Return `timer "heartbeat"`, or the name of another callback."""
+    """Return `timer "heartbeat"`, or the name of another callback. ACK, RTS and CTS have none."""
     if cause.startswith(_TIMER):
         return f'timer "{cause.removeprefix(_TIMER)}"'
-    return f"handle_{cause}" if cause in (_ANSWER, "telemetry") else cause or "the MAC"
+    return f"handle_{cause}" if cause in (_ANSWER, "telemetry") else cause or "control frames"
 
 
 @dataclass(frozen=True)
@@ -251,12 +251,11 @@ class _Run:
 
     @cached_property
     def _due(self) -> Mapping[Origin, Sequence[tuple[int, int]]]:
-        """{origin: (time in ns at which it was due, node) of each of its frames}, by time, without retries."""
+        """{origin: (time in ns at which it was due, node) of each frame}, by time, without retries."""
         found: defaultdict[Origin, list[tuple[int, int]]] = defaultdict(list)
-        frames = self._frames
-        for frame, (kind, retry) in enumerate(zip(frames["kind"], frames["retry"], strict=True)):
-            if kind in _DATA and not retry:
-                found[self._origin(frame)].append((self._due_ns(frame), frames["node"][frame]))
+        for frame, (node, retry) in enumerate(zip(self._frames["node"], self._frames["retry"], strict=True)):
+            if not retry:
+                found[self._origin(frame)].append((self._due_ns(frame), node))
         return {origin: sorted(due) for origin, due in found.items()}
 
     @cached_property
@@ -264,9 +263,9 @@ class _Run:
         """{node: ends in ns of the messages that it received}."""
         found: defaultdict[int, list[int]] = defaultdict(list)
         for frame, receiver, outcome in self.receptions:
-            if OUTCOMES[outcome] == "delivered" and self._frames["kind"][frame] in _DATA:
-                if self._is_for(frame, receiver):
-                    found[receiver].append(self._ends[frame])
+            is_message = self._frames["kind"][frame] in _DATA and self._is_for(frame, receiver)
+            if is_message and OUTCOMES[outcome] == "delivered":
+                found[receiver].append(self._ends[frame])
         return {node: sorted(ends) for node, ends in found.items()}
 
     def _clash(self, frame: int, other: int) -> Clash:

@@ -3,11 +3,12 @@
 import tempfile
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from gradysim.ladder.campaign import Campaign, Observation
+from gradysim.integrated.native_protocols import is_native
+from gradysim.ladder.campaign import Campaign, FailedRunError, Observation
 from gradysim.ladder.clashes import Diagnosis, Pattern, diagnose
 from gradysim.ladder.jitter import Jitter
 from gradysim.replay.reader import read_replay
@@ -71,6 +72,7 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
 
     Raises:
         ConfigError: The runs have no such metric.
+        FailedRunError: A run with jitter failed.
         Exception: What protocols raise in the first run.
     """
     with tempfile.TemporaryDirectory() as folder:
@@ -89,6 +91,10 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
             (origin.group, origin.timer) for each in fixable for origin in each.origins if origin.is_timer
         )
     )
+    without = Jitter(frozenset(timers), 0.0)
+    nodes = campaign.scenario(campaign.all_effects, 0).nodes
+    if any(is_native(spec) and without.timers_of(spec) for spec in nodes):
+        return Desync(diagnosis)
     period_s = max(each.period_s for each in fixable)
     observations = {
         jitter_s: campaign.observations(
@@ -96,7 +102,7 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
             campaign.all_effects,
             range(len(campaign)),
             metric or _ANY_METRIC,
-            Jitter(frozenset(timers), jitter_s),
+            replace(without, longest_s=jitter_s),
         )
         for jitter_s in _jitters(diagnosis.airtime_s, period_s)
     }
@@ -127,6 +133,9 @@ def _rounded(seconds: float) -> float:
 
 
 def _trial(jitter_s: float, seen: Sequence[Observation], metric: str | None) -> Trial:
+    for place, each in enumerate(seen):
+        if each.failure:
+            raise FailedRunError(f"jitter of {jitter_s:g} s, run {place}: {each.failure}")
     receptions = sum(each.receptions for each in seen)
     lost = sum(sum(each.losses.values()) for each in seen)
     values = [each.value for each in seen if each.value is not None]

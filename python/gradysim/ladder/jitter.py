@@ -30,13 +30,16 @@ class Jitter:
         ConfigError for a protocol of the engine.
         """
         for spec in scenario.nodes:
-            group = spec.group if spec.name == spec.group else f"{spec.group}[*]"
-            names = {timer for of_group, timer in self.timers if of_group == group}
-            if names:
+            if names := self.timers_of(spec):
                 _check_delays(spec)
                 provider = run.node(spec.name).provider
                 stream = Random(f"{scenario.seed} {spec.id}")
                 provider.schedule_timer = self._delayed(provider.schedule_timer, names, stream)
+
+    def timers_of(self, spec: NodeSpec) -> set[str]:
+        """Return the names of the delayed timers of a node."""
+        group = spec.group if spec.name == spec.group else f"{spec.group}[*]"
+        return {timer for of_group, timer in self.timers if of_group == group}
 
     def _delayed(
         self, schedule: Callable[[str, float], None], names: set[str], stream: Random

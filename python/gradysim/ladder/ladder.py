@@ -5,13 +5,9 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, Observation
+from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, FailedRunError, Observation
 from gradysim.ladder.levels import Level
 from gradysim.results.paired import Estimate, compare_pairs, estimate
-
-
-class FailedRunError(Exception):
-    """A run of a ladder failed: a protocol raised an exception."""
 
 
 @dataclass(frozen=True)

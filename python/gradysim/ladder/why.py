@@ -80,18 +80,21 @@ def _side_by_side(
 
 
 def _ratios(replay: Replay) -> Mapping[str, float]:
-    """Return the ratio of each outcome of losses among the receptions at addressees of messages."""
+    """Return the ratio of each outcome of losses among the receptions at addressees of messages.
+
+    Receptions that are too weak count among all, others among those that receivers noticed.
+    """
     counts: Counter[str] = Counter(outcome for *_, outcome in _receptions(replay))
+    noticed = counts.total()
     frames: Any = replay.table("frames")
-    total = 0  # addressees
+    addressees = 0
     for kind, destination, receptions, unnoticed in zip(
         frames["kind"], frames["destination"], frames["receptions"], frames["unnoticed"], strict=True
     ):
         if kind in _DATA:
-            total += receptions + unnoticed if destination == BROADCAST else 1
-    counts[_TOO_WEAK] = total - counts.total()
-    lost = (outcome for outcome in counts if outcome == _TOO_WEAK or outcome not in NOT_LOST)
-    return {outcome: counts[outcome] / max(1, total) for outcome in lost}
+            addressees += receptions + unnoticed if destination == BROADCAST else 1
+    lost = {outcome: count / noticed for outcome, count in counts.items() if outcome not in NOT_LOST}
+    return lost | {_TOO_WEAK: 1 - noticed / addressees if addressees else 0.0}
 
 
 def _receptions(replay: Replay) -> Iterator[tuple[int, int, str]]:

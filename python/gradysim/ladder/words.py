@@ -20,6 +20,9 @@ _ANSWERS = "send together, {apart} apart: they need a random delay before each m
 _RARE = 0.01
 """Ratio of clashes below which a pattern is not worth a line."""
 
+_LEAST_INCREASE = 0.001
+"""Increase of a ratio of losses below which it is not worth a line."""
+
 
 def verdict_sentences(bisection: Bisection, verdict: Verdict) -> Iterator[str]:
     """Yield where the protocol breaks."""
@@ -78,7 +81,7 @@ def _loss_sentences(
 ) -> Iterator[str]:
     """Yield the two largest increases."""
     for outcome, (before, after) in list(losses.items())[:2]:
-        if after > before:
+        if after - before >= _LEAST_INCREASE:
             yield f"{what} {_text_of(outcome)}: {after:.1%} at level {fails}, {before:.1%} at level {works}."
 
 
@@ -99,7 +102,10 @@ def desync_sentences(found: Desync) -> Iterator[str]:
     )
     yield from pattern_sentences(diagnosis, 5)
     if found.jitter_s is None:
-        yield "No jitter was tried: the clashes are too few, or a delay of timers does not help against them."
+        yield (
+            "No jitter was tried: the clashes are too few, a delay of timers does not help against them, or"
+            " the timers are those of the engine's own protocols."
+        )
         return
     named = " and ".join(f'timer "{timer}" of {group}' for group, timer in found.timers)
     first, best = found.trials[0], max(trial.delivery for trial in found.trials)

@@ -1,4 +1,4 @@
-"""All or none: candidates claim to be the leader at once, and all others are assumed to hear the same claims."""
+"""All or none: candidates claim to be the leader at once, and all others should hear the same claims."""
 
 from node import Node
 

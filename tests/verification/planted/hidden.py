@@ -1,4 +1,4 @@
-"""Hidden terminals: two sensors that do not hear each other report to a sink between them, without a confirmation."""
+"""Hidden terminals: two sensors that do not hear each other report to a sink between them."""
 
 from node import Node
 
