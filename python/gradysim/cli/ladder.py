@@ -56,7 +56,8 @@ def climb_ladder(
     except FailedRunError as failure:
         print(failure, file=sys.stderr)
         return FAILED
-    console().print(ladder_table(rungs, f"{metric}, {len(campaign)} runs of {campaign.config} at each level"))
+    runs = "1 run" if len(campaign) == 1 else f"{len(campaign)} runs"
+    console().print(ladder_table(rungs, f"{metric}, {runs} of {campaign.config} at each level"))
     return OK
 
 

@@ -16,7 +16,7 @@ _RELATIONS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt,
     ">": operator.gt,
 }
-_ASSERTION = re.compile(r"\s*(.+?)\s*(<=|>=|==|!=|<|>)\s*([-+.\deE]+)\s*", re.ASCII)
+_ASSERTION = re.compile(r"\s*([^<>=!]+?)\s*(<=|>=|==|!=|<|>)\s*([-+.\deE]+)\s*", re.ASCII)
 
 
 @dataclass(frozen=True)

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from gradysim.ladder.assertion import Assertion
 from gradysim.ladder.campaign import Campaign, Effects
 from gradysim.ladder.sequential import SequentialTest, probability_of_pairs
+from gradysim.scenario.errors import ConfigError
 
 _AT_ENDS = 10
 """Runs that calibrate each end."""
@@ -93,8 +94,16 @@ class Bisection:
             assertion: What the protocol has to achieve.
             executor: Executes the runs, see `Campaign.observations`.
             confidence: Probability that the level is the right one, > 0.5 and < 1.
-            max_runs: Budget of runs.
+            max_runs: Budget of runs, at least 20.
+
+        Raises:
+            ConfigError: The budget is too small.
         """
+        if max_runs < 2 * _AT_ENDS:
+            raise ConfigError(
+                f"a budget of {max_runs} runs is too small",
+                expected=f"at least {2 * _AT_ENDS}: {_AT_ENDS} at each end of the ladder",
+            )
         self.campaign, self.confidence = campaign, confidence
         self._assertion, self._executor, self._max_runs = assertion, executor, max_runs
         self._tallies: dict[Effects, Tally] = {}

@@ -29,6 +29,8 @@ _TIMER = "timer "
 _ANSWER = "packet"
 _DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
 _NS_PER_S = 1e9
+_NS = 1.5e-9
+"""Rounding error of the distance between two times, in s."""
 
 _SATURATED = 0.7
 """Share of the time that frames fill at a receiver, from which on no jitter helps."""
@@ -185,12 +187,13 @@ def _drifts(clashes: Sequence[Clash]) -> bool:
     if not all(each.lost.is_timer and each.other.is_timer for each in clashes):
         return False
     steps = [abs(after.apart_s - before.apart_s) for before, after in pairwise(clashes)]
-    return len(steps) > 2 and _is_smooth(steps)
+    changes = [step for step in steps if step > _NS]  # of two lost frames, each is a clash
+    return len(changes) > 2 and _is_smooth(changes)
 
 
 def _is_smooth(steps: Sequence[float]) -> bool:
     middle = median(steps)
-    return middle > 0 and sum(abs(step - middle) < middle / 10 for step in steps) >= _MOST * len(steps)
+    return sum(abs(step - middle) < middle / 10 for step in steps) >= _MOST * len(steps)
 
 
 class _Run:

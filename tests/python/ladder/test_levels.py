@@ -1,0 +1,106 @@
+from collections.abc import Callable
+
+import pytest
+
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.levels import LEVELS, settings_without
+
+RADIO = ["ideal", "range", "airtime", "access", "interference", "capture", "noise"]
+BOX = """
+*.environment.numObstacles = 1
+*.environment.obstacle[0].minX = 500m
+*.environment.obstacle[0].maxX = 501m
+*.environment.obstacle[0].minY = 0m
+*.environment.obstacle[0].maxY = 1m
+*.environment.obstacle[0].minZ = 0m
+*.environment.obstacle[0].maxZ = 1m
+"""
+IDEAL_OBSTACLES = '*.radioMedium.obstacleLoss.typename = "IdealObstacleLoss"\n'
+
+
+def names(campaign: Campaign) -> list[str]:
+    return [level.name for level in campaign.levels]
+
+
+def test_the_default_radio_has_no_effect_beyond_noise(make_campaign: Callable[..., Campaign]) -> None:
+    assert names(make_campaign()) == RADIO
+
+
+@pytest.mark.parametrize(
+    ("line", "added"),
+    [
+        ('*.radioMedium.pathLoss.typename = "LogNormalShadowing"', ["shadowing"]),
+        ('*.radioMedium.pathLoss.typename = "RayleighFading"', ["fading"]),
+        ('*.radioMedium.pathLoss.typename = "RicianFading"', ["fading"]),
+        ('*.radioMedium.pathLoss.typename = "NakagamiFading"', ["fading"]),
+        ('*.radioMedium.pathLoss.typename = "TwoRayInterference"', ["ground"]),
+        ('*.radioMedium.pathLoss.typename = "TwoRayGroundReflection"', ["ground"]),
+        ('*.radioMedium.pathLoss.typename = "BreakpointPathLoss"', []),
+        (IDEAL_OBSTACLES + BOX, ["obstacles"]),
+        (IDEAL_OBSTACLES, []),
+        (BOX, []),
+        ('*.nodes[1].wlan[*].radio.antenna.typename = "DipoleAntenna"', ["antennas"]),
+        ("*.nodes[1].clock.oscillator.driftRate = 5ppm", ["clocks"]),
+        ("*.nodes[1].clock.oscillator.driftRate = 0ppm", []),
+    ],
+)
+def test_each_effect_of_the_scenario_is_a_level(
+    make_campaign: Callable[..., Campaign], line: str, added: list[str]
+) -> None:
+    assert names(make_campaign(file=line)) == [*RADIO, *added]
+
+
+@pytest.mark.parametrize(
+    ("timing", "expected"),
+    [
+        ("instant", ["ideal", "range"]),
+        ("airtime", ["ideal", "range", "airtime"]),
+        ("channelAccess", ["ideal", "range", "airtime", "access"]),
+    ],
+)
+def test_a_unit_disk_has_no_radios(
+    make_campaign: Callable[..., Campaign], timing: str, expected: list[str]
+) -> None:
+    disk = f'*.radioMedium.typename = "UnitDiskRadioMedium"\n*.radioMedium.timing = "{timing}"\n'
+    campaign = make_campaign(file=disk + "**.transmitter.communicationRange = 100m\n", config="General")
+    assert names(campaign) == expected
+
+
+def test_sections_of_the_file_are_the_last_levels(make_campaign: Callable[..., Campaign]) -> None:
+    file = (
+        '[Level rain]\ndescription = "it rains"\n*.radioMedium.backgroundNoise.power = -90dBm\n[Level slow]\n'
+    )
+    campaign = make_campaign(file=file)
+    assert names(campaign) == [*RADIO, "rain", "slow"]
+    assert [level.adds for level in campaign.levels[-2:]] == ["it rains", "the lines of [Level slow]"]
+
+
+def test_the_settings_of_the_most_ideal_level_come_first() -> None:
+    off = settings_without({"interference", "airtime", "access"}, LEVELS)
+    timings = [line.partition("=")[2] for line in off if line.startswith("*.radioMedium.timing")]
+    assert timings == ['"instant"', '"airtime"', '"channelAccess"']
+
+
+def test_effects_that_are_not_left_out_have_no_settings() -> None:
+    assert settings_without((), LEVELS) == []
+    assert settings_without({"obstacles"}, LEVELS) == ['*.radioMedium.obstacleLoss.typename=""']
+
+
+def test_each_level_turns_its_effect_off_in_the_scenario(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign(
+        file='*.radioMedium.pathLoss.typename = "RicianFading"\n' + IDEAL_OBSTACLES + BOX
+    )
+    ideal, full = (campaign.scenario(campaign.effects_up_to(level), 0) for level in (0, 8))
+    assert (ideal.medium["typename"].value, ideal.medium["timing"].value) == (
+        "UnitDiskRadioMedium",
+        "instant",
+    )
+    assert (ideal.medium["path_loss"].value, full.medium["path_loss"].value) == (
+        "FreeSpacePathLoss",
+        "RicianFading",
+    )
+    assert (ideal.medium["obstacle_loss"].value, full.medium["obstacle_loss"].value) == (
+        "",
+        "IdealObstacleLoss",
+    )
+    assert "typename" not in full.medium
