@@ -38,6 +38,9 @@ _SATURATED = 0.7
 _MOST = 0.8
 """Share of clashes that makes a verdict."""
 
+_LEAST_STEPS = 5
+"""Steps from clash to clash that show a drift. Fewer may be equal by chance."""
+
 _OFTEN = 0.2
 """Least share of frames that are due together if nodes are synchronized."""
 
@@ -188,7 +191,7 @@ def _drifts(clashes: Sequence[Clash]) -> bool:
         return False
     steps = [abs(after.apart_s - before.apart_s) for before, after in pairwise(clashes)]
     changes = [step for step in steps if step > _NS]  # of two lost frames, each is a clash
-    return len(changes) > 2 and _is_smooth(changes)
+    return len(changes) >= _LEAST_STEPS and _is_smooth(changes)
 
 
 def _is_smooth(steps: Sequence[float]) -> bool:

@@ -57,7 +57,7 @@ sim-time-limit = 5.05s
 
 @pytest.fixture
 def make_campaign(tmp_path: Path) -> Callable[..., Campaign]:
-    """`make_campaign(*settings, file="...")`: three nodes that send beacons; `file` is added to the .ini file."""
+    """`make_campaign(*settings, file="...")`: three nodes that send beacons; `file` ends the .ini file."""
 
     def make(*settings: str, file: str = "", run_count: int = 1, config: str = "General") -> Campaign:
         (tmp_path / "protocol.py").write_text(PROTOCOL, encoding="utf-8")

@@ -1,0 +1,107 @@
+"""Runs of a configuration with any set of effects."""
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+import gradysim
+from gradysim.ladder.campaign import Campaign, Effects, Observation
+from gradysim.scenario.errors import ConfigError
+
+SCATTERED = """
+*.nodes[*].mobility.initialX = uniform(0m, 60m)
+*.nodes[*].mobility.initialY = uniform(0m, 60m)
+*.radioMedium.pathLoss.typename = "RayleighFading"
+"""
+RANDOM_TIMES = "**.protocol.spread=0.05"
+RAIN = """
+[Level rain]
+description = "it rains"
+*.radioMedium.backgroundNoise.power = -85dBm
+[Level storm]
+*.radioMedium.backgroundNoise.power = -75dBm
+"""
+
+
+def draws(campaign: Campaign, effects: Effects, place: int = 0) -> list[tuple[object, object]]:
+    """Return the position of each node, and when it sent its last beacon."""
+    with gradysim.start(campaign.scenario(effects, place)) as run:
+        run.run_until()
+    return [(node.position, node.tracked_variables["sent"]) for node in run.result().nodes]
+
+
+def test_effects_change_neither_positions_nor_times_of_messages(
+    make_campaign: Callable[..., Campaign],
+) -> None:
+    campaign = make_campaign(RANDOM_TIMES, "sim-time-limit=1.3s", file=SCATTERED)
+    full = draws(campaign, campaign.all_effects)
+    assert len(set(full)) == 3
+    for level in campaign.levels:
+        assert draws(campaign, campaign.all_effects - {level.name}) == full
+    assert draws(campaign, frozenset()) == full
+
+
+def test_runs_have_different_seeds(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign(RANDOM_TIMES, "sim-time-limit=1.3s", file=SCATTERED, run_count=2)
+    assert len(campaign) == 2
+    assert draws(campaign, frozenset(), 0) != draws(campaign, frozenset(), 1)
+
+
+def noise_dbm(campaign: Campaign, *effects: str) -> str:
+    field = campaign.scenario(frozenset({"interference", "noise", *effects}), 0).medium.get(
+        "background_noise_w"
+    )
+    return "default" if field is None else f"{1000 * float(field.value):.3g} mW"
+
+
+def test_lines_of_a_section_precede_those_of_the_file(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign(file="*.radioMedium.backgroundNoise.power = -95dBm\n" + RAIN)
+    assert noise_dbm(campaign) == "3.16e-10 mW"
+    assert noise_dbm(campaign, "rain") == "3.16e-09 mW"
+
+
+def test_the_highest_section_is_on_top(make_campaign: Callable[..., Campaign]) -> None:
+    assert noise_dbm(make_campaign(file=RAIN), "rain", "storm") == "3.16e-08 mW"
+
+
+def test_an_error_in_a_section_has_its_line(make_campaign: Callable[..., Campaign], tmp_path: Path) -> None:
+    file = "\n[Level rain]\n*.radioMedium.backgroundNoise.power = -85m\n"
+    campaign = make_campaign(file=file)
+    line = len((tmp_path / "test.ini").read_text(encoding="utf-8").splitlines())
+    with pytest.raises(ConfigError, match=rf"test\.ini:{line}: .*-85m"):
+        campaign.scenario(campaign.all_effects, 0)
+
+
+def test_an_error_of_the_configuration_has_its_line(make_campaign: Callable[..., Campaign]) -> None:
+    with pytest.raises(ConfigError, match=r"test\.ini:\d+: .*pathLos"):
+        make_campaign(file="*.radioMedium.pathLos.alpha = 3\n")
+
+
+@pytest.mark.parametrize("with_executor", [False, True])
+def test_an_observation_has_the_metric_and_the_losses(
+    make_campaign: Callable[..., Campaign], with_executor: bool
+) -> None:
+    campaign = make_campaign(run_count=2)
+    with ThreadPoolExecutor(1) as executor:
+        chosen = executor if with_executor else None
+        seen = list(campaign.observations(chosen, campaign.all_effects, range(2), "nodes[*] heard"))
+    assert [each.value for each in seen] == [0, 0]
+    beacons = 3 * 41
+    assert seen[0].losses == {"receiver_transmitting": 2 * beacons}
+    assert seen[0].receptions == 2 * beacons
+    assert {name: count for name, count in seen[0].messages.items() if count} == {"sent": beacons}
+
+
+def test_an_unknown_metric_is_refused_with_the_nearest_one(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign()
+    with pytest.raises(ConfigError, match=r"did you mean `nodes\[\*\] heard`"):
+        list(campaign.observations(None, campaign.all_effects, range(1), "nodes[*] herd"))
+
+
+def test_a_run_that_fails_has_no_value(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign("**.protocol.interval=-1")
+    (seen,) = campaign.observations(None, campaign.all_effects, range(1), "nodes[*] heard")
+    assert seen == Observation(None, failure=seen.failure)
+    assert seen.failure

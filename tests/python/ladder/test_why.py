@@ -1,0 +1,68 @@
+"""What differs between a run that works and one that fails."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.why import Explanation, explain
+from gradysim.ladder.words import explanation_sentences
+from gradysim.replay.reader import read_replay
+
+
+@pytest.fixture
+def explanation_of(
+    make_campaign: Callable[..., Campaign], tmp_path: Path
+) -> Callable[..., tuple[Explanation, str]]:
+    """`explanation_of("range", *settings)`: what that effect changes, and the sentences."""
+
+    def explanation(effect: str, *settings: str) -> tuple[Explanation, str]:
+        campaign = make_campaign(*settings)
+        fails = [level.name for level in campaign.levels].index(effect)
+        files = [tmp_path / "works.html", tmp_path / "fails.html"]
+        before, after = (
+            campaign.record(campaign.effects_up_to(level), 0, file)
+            for level, file in zip((fails - 1, fails), files, strict=True)
+        )
+        found = explain(read_replay(files[0]), read_replay(files[1]), (before, after))
+        return found, "\n".join(explanation_sentences(found, fails - 1, fails))
+
+    return explanation
+
+
+def test_losses_to_other_frames(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
+    found, text = explanation_of("interference")
+    assert next(iter(found.losses.items())) == ("receiver_transmitting", (0, 1))
+    assert found.first is not None
+    assert (found.first.time_s, found.first.cause) == (1, "timer beacon")
+    assert (found.first.before, found.first.after) == ("delivered", "receiver_transmitting")
+    assert "Receptions lost to `receiver transmitting`: 100.0% at level 4, 0.0% at level 3." in text
+    assert 'the frame of timer "beacon" from nodes[' in text
+
+
+def test_receptions_out_of_range(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
+    found, text = explanation_of("range", "*.nodes[*].mobility.lineStepX=70m")
+    before, after = found.losses["below_sensitivity"]
+    assert before == 0
+    assert after == pytest.approx(1 / 3)  # from 0 to 2 and from 2 to 0, of 6 links
+    assert "Receptions too weak or out of range: 33.3% at level 1, 0.0% at level 0." in text
+    assert "is delivered at level 0 and too weak or out of range at level 1." in text
+
+
+def test_messages_that_did_not_fit_into_the_queue(
+    explanation_of: Callable[..., tuple[Explanation, str]],
+) -> None:
+    burst = "**.protocol.interval=0.00001", "sim-time-limit=1.002s", "*.nodes[1..2].protocol.sends=false"
+    found, text = explanation_of("access", *burst)
+    assert found.messages["queue_overflow"][0] == 0
+    assert found.messages["queue_overflow"][1] > 0.2
+    assert "Messages lost to `queue overflow`" in text
+
+
+def test_only_times_differ(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
+    found, text = explanation_of("airtime")
+    assert found.first is None
+    assert text.endswith(
+        "All frames have the same outcomes at both levels. Only times differ, of frames or of timers."
+    )
