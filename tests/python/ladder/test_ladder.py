@@ -1,0 +1,23 @@
+"""A metric at each level, and what is lost there."""
+
+from collections.abc import Callable
+
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.ladder import climb, largest_drop
+
+
+def test_the_metric_drops_where_frames_overlap(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign("sim-time-limit=1.25s", run_count=2)
+    rungs = list(climb(campaign, "nodes[*] heard", range(7)))
+    assert [rung.metric.mean for rung in rungs] == [6, 6, 6, 6, 0, 0, 0]
+    assert rungs[0].change is None
+    assert largest_drop(rungs) is rungs[4]
+    assert (rungs[3].loss, rungs[4].loss, rungs[4].loss_ratio) == ("", "receiver_transmitting", 1)
+
+
+def test_messages_that_did_not_fit_into_the_queue_are_a_loss(make_campaign: Callable[..., Campaign]) -> None:
+    burst = "**.protocol.interval=0.00001", "sim-time-limit=1.002s", "*.nodes[1..2].protocol.sends=false"
+    before, after = climb(make_campaign(*burst, run_count=2), "nodes[*] heard", range(2, 4))
+    assert before.loss == ""
+    assert after.loss == "queue_overflow"
+    assert 0.2 < after.loss_ratio < 0.6
