@@ -1,5 +1,6 @@
 """The directory of a study, and the runs in it, for commands that read them."""
 
+import gc
 import shlex
 import sys
 from collections.abc import Iterable
@@ -22,8 +23,9 @@ def read_study(directory: Path) -> "Runs":
 
     if not directory.is_file():
         check_directory(directory)
-    with gc_paused():  # summaries are no garbage
+    with gc_paused():
         found = runs(directory)
+    gc.freeze()  # no search for garbage in up to 100,000 summaries
     if not len(found):
         reason = "no results" if not has_files_for_omnetpp_alone(directory) else "only .sca and .vec files"
         raise ConfigError(

@@ -29,7 +29,8 @@ def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
     if len(values) < 2:
         return mean_of(values), None
     # Relative to the smallest and largest value squares do not overflow. Halves do not, either.
-    low, half_range = min(values) / 2, max(values) / 2 - min(values) / 2
+    low = min(values) / 2
+    half_range = max(values) / 2 - low
     if half_range == 0:
         return mean_of(values), 0.0
     relative = [(value / 2 - low) / half_range for value in values]

@@ -102,6 +102,11 @@ class _Block:
         columns = zip(*[run.row for run in self.runs], strict=True)
         return dict(zip(self.conditions.quantities, columns, strict=True))
 
+    @cached_property
+    def left_out(self) -> Sequence[Mapping[str, Mapping[str, int]]]:
+        """What is left out of the runs, without those that have all numbers."""
+        return [run.left_out for run in self.runs if run.left_out]
+
 
 def _blocks(runs: Iterable[RunSummary]) -> list[_Block]:
     return [_Block(alike) for alike in _by(runs, lambda run: id(run.conditions))]
@@ -174,18 +179,18 @@ def _by(items: Iterable[_Item], key: Callable[[_Item], object]) -> list[list[_It
 
 def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str) -> Iterator[Mean]:
     quantity = f"{group} {name}"
-    left_out: Counter[str] = Counter()
+    reasons: Counter[str] = Counter()
     node_count = 0
     for block in blocks:
         in_group = block.conditions.groups.get(group, 0)
         node_count += in_group * len(block.runs)
-        others = [run.left_out[quantity] for run in block.runs if quantity in run.left_out]
+        others = [left_out[quantity] for left_out in block.left_out if quantity in left_out]
         for each in others:
-            left_out.update(each)
+            reasons.update(each)
         if quantity not in block.columns:
-            left_out["missing"] += in_group * (len(block.runs) - len(others))
+            reasons["missing"] += in_group * (len(block.runs) - len(others))
     if node_count:
-        text = ", ".join(f"{left_out[what]} {what}" for what in REASONS if left_out[what])
+        text = ", ".join(f"{reasons[what]} {what}" for what in REASONS if reasons[what])
         values = _values(blocks, quantity)
         yield _mean(blocks, quantity, values, f"{text} of {node_count}" if text else "")
 
