@@ -138,7 +138,7 @@ def read_run_file(file: Path) -> dict[str, Any]:
 
 def parsed(content: bytes) -> dict[str, Any]:
     """Return the JSON object in the content of a result file. Raises ValueError as `read_run_file`."""
-    text = content.decode("utf-8").replace("\r\n", "\n")  # written on Windows
+    text = content.replace(b"\r\n", b"\n").decode("utf-8")  # Windows has other ends of lines
     try:
         found = json.loads(text)
     except RecursionError as error:

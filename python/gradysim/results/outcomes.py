@@ -121,7 +121,9 @@ def loss_shares(outcomes: Outcomes) -> dict[str, float]:
 
 
 def _delivered(what: str, counts: Mapping[str, int]) -> Iterator[Average]:
-    total = sum(counts.values()) - sum(counts.get(outcome, 0) for outcome in _UNDECIDED)
+    if not any(counts.values()):  # as for most kinds
+        return
+    total = sum(count for outcome, count in counts.items() if outcome not in _UNDECIDED)
     if total and "delivered" in counts:
         yield Average(f"{what} delivered", counts["delivered"] / total)
 

@@ -8,7 +8,7 @@ import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from gradysim.protocol.plain_value import plain_value
 
@@ -47,8 +47,7 @@ class Histogram:
     attributes: Mapping[str, str] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
-class Average:
+class Average(NamedTuple):
     """One number of a run that `gradysim means` averages over runs.
 
     Attributes:

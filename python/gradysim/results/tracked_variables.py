@@ -5,9 +5,8 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from gradysim.protocol.plain_value import as_float, key_text
 from gradysim.results.confidence_interval import mean_of
@@ -31,8 +30,7 @@ def tracked_scalars(tracked: Mapping[str, object], node: str) -> Iterator[Scalar
             yield recorded(f"{node}.protocol", f"{key_text(name)}:last", number)
 
 
-@dataclass(frozen=True)
-class TrackedVariable:
+class TrackedVariable(NamedTuple):
     """A tracked variable at the nodes of a group.
 
     Attributes:
@@ -54,7 +52,9 @@ def variables_of_group(nodes: list[Tracked]) -> dict[str, TrackedVariable]:
     variables = {}
     for name in dict.fromkeys(name for tracked in nodes for name in tracked):
         numbers, others = numbers_and_others(nodes, name)
-        variables[name] = TrackedVariable(mean_of(numbers) if numbers else None, Counter(others))
+        variables[name] = TrackedVariable(
+            mean_of(numbers) if numbers else None, Counter(others) if others else {}
+        )
     return variables
 
 
