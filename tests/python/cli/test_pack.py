@@ -52,6 +52,12 @@ def test_packed_runs_are_left_out(gradysim, packed):
     assert done.stderr.endswith("General: 3 of 3 runs are in out (0..2) and left out\n")
 
 
+def test_packed_runs_are_done(gradysim, packed):
+    (packed.parent.parent / "General-#1.prototype.json").write_text("{")
+    done = gradysim("status", "out", "test.ini", "--mode", "prototype", "--missing")
+    assert (done.stdout, done.stderr) == ("1\n", "")
+
+
 def test_packed_runs_of_other_settings_are_an_error(gradysim, packed):
     done = gradysim(*RUN, "--seed", "5")
     assert done.returncode == MISTAKE
