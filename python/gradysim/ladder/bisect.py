@@ -24,7 +24,7 @@ _LEAST_DIFFERENCE = 0.3
 """Least difference of the ratios at the two ends. Smaller ones take too many runs to be located."""
 
 
-class OutOfRunsError(Exception):
+class _OutOfRunsError(Exception):
     """The budget of runs is used up."""
 
 
@@ -140,7 +140,7 @@ class Bisection:
                 else:
                     fails = middle
             is_sure = self._confirm(works, fails)
-        except OutOfRunsError:
+        except _OutOfRunsError:
             return Verdict(works, fails, False, (), self._run_that_differs(works, fails), self.run_count)
         smallest = self._smallest(fails)
         return Verdict(works, fails, is_sure, smallest, self._run_that_differs(works, fails), self.run_count)
@@ -183,7 +183,7 @@ class Bisection:
             for level in reversed(self.campaign.levels[1 : fails + 1]):
                 if not self._works(needed - {level.name}):
                     needed -= {level.name}
-        except OutOfRunsError:
+        except _OutOfRunsError:
             return ()
         return tuple(level.name for level in self.campaign.levels[1:] if level.name in needed)
 
@@ -196,7 +196,7 @@ class Bisection:
         tally = self.with_effects(effects)
         missing: Sequence[int] = range(len(tally.outcomes), count)
         if count > len(self.campaign) or self.run_count + len(missing) > self._max_runs:
-            raise OutOfRunsError
+            raise _OutOfRunsError
         metric = self._assertion.metric
         for seen in self.campaign.observations(self._executor, effects, missing, metric):
             tally.outcomes.append(seen.value is not None and self._assertion.holds(seen.value))
