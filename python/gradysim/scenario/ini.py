@@ -24,6 +24,9 @@ from gradysim.scenario.regular_files import check_regular
 GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
 
+PROFILES = Path(__file__).parent / "profiles"
+"""Files that come with the package, to be included: settings with which the engine follows another simulator."""
+
 _HEADING = re.compile(r"\[\s*(?:(?P<kind>Config|Level)\s+)?(?P<name>[^\s\[\]]+)\s*\]")
 
 _DEEPEST = 100
@@ -151,7 +154,7 @@ class _Reader:
                 if line.startswith("["):
                     section = self._open_section(line, source, headings)
                 elif match := re.match(r"include\s++(?!=)(.*)", line):
-                    included = file.parent / match.group(1).strip().strip('"')
+                    included = _included_file(file, match.group(1).strip().strip('"'))
                     self.read(included, section, source, (*including, resolved))
                 else:
                     section.entries.append(_entry(line, source))
@@ -192,6 +195,13 @@ class _Reader:
         return _decoded(file, data)
 
 
+def _included_file(file: Path, name: str) -> Path:
+    """Return the file that `file` includes by that name: one relative to it, or else a profile."""
+    beside = file.parent / name
+    is_profile = name in {profile.name for profile in PROFILES.glob("*.ini")}
+    return PROFILES / name if is_profile and not beside.exists() else beside
+
+
 def _bytes_of(file: Path, asked_by: Source | None, most: int) -> bytes:
     try:
         check_regular(file, str(file) if asked_by else "it")
@@ -201,8 +211,10 @@ def _bytes_of(file: Path, asked_by: Source | None, most: int) -> bytes:
         raise ConfigError(error.problem, asked_by or Source(file, 0), expected=error.expected) from error
     except OSError as error:
         reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror or str(error)
+        folders = [file.parent, PROFILES] if asked_by else [file.parent]
+        nearest = next(filter(None, (nearest_file(folder / file.name, (".ini",)) for folder in folders)), "")
         raise ConfigError(
-            f"{file}: {reason}", asked_by, expected="an .ini file", suggestion=nearest_file(file, (".ini",))
+            f"{file}: {reason}", asked_by, expected="an .ini file", suggestion=nearest
         ) from error
 
 

@@ -8,6 +8,7 @@ import pytest
 
 from gradysim.scenario.errors import ConfigError, ConfigErrors
 from gradysim.scenario.ini import (
+    PROFILES,
     IniFile,
     read_ini,
     read_overrides,
@@ -107,6 +108,17 @@ def test_include_is_relative_and_goes_to_the_current_section(write_ini: Write, t
     ]
 
 
+@pytest.mark.parametrize("profile", sorted(PROFILES.glob("*.ini")), ids=lambda file: file.stem)
+def test_a_profile_of_the_package_can_be_included(write_ini: Write, profile: Path) -> None:
+    ini = read_ini(write_ini(f"[X]\ninclude {profile.name}\n"))
+    assert {entry.source.file for entry in ini.sections["X"].entries} == {profile}
+
+
+def test_a_file_beside_has_precedence_over_a_profile(write_ini: Write) -> None:
+    write_ini("a = 1\n", "as_ns3.ini")
+    assert entries(read_ini(write_ini("include as_ns3.ini\n"))) == [("a", "1", 1)]
+
+
 def test_sections_of_several_files_merge_and_the_current_one_stays(
     write_ini: Write,
 ) -> None:
@@ -151,6 +163,7 @@ def test_a_file_may_be_included_twice(write_ini: Write) -> None:
         ("\ninclude test.ini\n", 2, ""),
         ("*.uavs[${n}].x = 3\n", 1, ""),
         ("include tst.ini\n", 1, "test.ini"),
+        ("include as_ns_3.ini\n", 1, "as_ns3.ini"),
     ],
 )
 def test_errors(write_ini: Write, text: str, line: int, suggestion: str) -> None:
