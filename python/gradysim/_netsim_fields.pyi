@@ -79,6 +79,9 @@ class MacFields:
     inet_station_retry_counters: bool
     """Whether failures are counted across dropped frames, as in INET: from the second in a row on, the
     contention window stays large."""
+    ns3_station_window: bool
+    """Whether a dropped frame leaves the contention window as it is, as in ns-3 3.44: the failure after
+    shortRetryLimit others in a row resets it."""
     cw_min: int
     """Smallest contention window in slots; -1: that of opMode."""
     cw_max: int

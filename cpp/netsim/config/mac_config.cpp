@@ -44,6 +44,9 @@ constexpr Field fields[] = {
      "Whether failures are counted across dropped frames, as in INET: from the second in a row on, the "
      "contention"
      " window stays large"},
+    {NETSIM_FIELD(MacConfig, ns3_station_window), "mac.dcf.recoveryProcedure.ns3StationWindow", boolean(),
+     "Whether a dropped frame leaves the contention window as it is, as in ns-3 3.44: the failure after "
+     "shortRetryLimit others in a row resets it"},
     {NETSIM_FIELD(MacConfig, cw_min), "mac.dcf.channelAccess.cwMin", window,
      "Smallest contention window in slots; -1: that of opMode"},
     {NETSIM_FIELD(MacConfig, cw_max), "mac.dcf.channelAccess.cwMax", window,

@@ -28,6 +28,7 @@ struct MacConfig {
     int short_retry_limit = 7;
     int long_retry_limit = 4;
     bool inet_station_retry_counters = false;  // mac/retry.hpp
+    bool ns3_station_window = false;           // mac/retry.hpp
     int cw_min = -1;                           // -1: that of the operation mode
     int cw_max = -1;                           // -1: that of the operation mode
 

@@ -38,6 +38,13 @@ Retry::Window contention_window_of(const MacConfig& config, const ModeSet& modes
     return window;
 }
 
+Retry::Rule retry_rule_of(const MacConfig& config) {
+    if (config.inet_station_retry_counters) {
+        return Retry::Rule::station_counters;
+    }
+    return config.ns3_station_window ? Retry::Rule::station_window : Retry::Rule::frame_counters;
+}
+
 }  // namespace
 
 const Mode& broadcast_mode(const MacConfig& config) {
@@ -57,12 +64,11 @@ DcfParameters::DcfParameters(Simulator& simulator_, MacConfig mac_config)
       rts_mode(modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps")),
       retry{{config.short_retry_limit, config.long_retry_limit},
             contention_window_of(config, modes),
-            config.inet_station_retry_counters ? Retry::Rule::station_counters : Retry::Rule::frame_counters},
-      // For a new message, the window is at its minimum, unless INET's counters have left it
+            retry_rule_of(config)},
+      // For a new message, the window is at its minimum, unless failures of earlier ones have left it
       // larger.
-      longest_wait(timing.difs +
-                   timing.slot *
-                       (retry.rule == Retry::Rule::station_counters ? retry.window.max : retry.window.min)),
+      longest_wait(timing.difs + timing.slot * (retry.rule == Retry::Rule::frame_counters ? retry.window.min
+                                                                                          : retry.window.max)),
       has_adaptive_rate(!config.rate_control.empty()) {}
 
 }  // namespace netsim

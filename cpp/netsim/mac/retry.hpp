@@ -8,7 +8,8 @@
 // of the station, in two counters that outlive frames. Only successes and broadcasts reset them.
 // The failure that makes one of them equal to the limit resets the window, and each later one
 // doubles it as before. So the window is small after the first of several dropped frames, and stays
-// large from the second on.
+// large from the second on. Rule::station_window is that of ns-3 3.44: dropping a frame leaves the
+// window as it is, and the failure after as many in a row as the short limit resets it.
 //
 // Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window); that a
 // frame of exactly the threshold's length counts as long is INET's choice. Why the rule is not the
@@ -30,7 +31,7 @@ public:
         int min;
         int max;
     };
-    enum class Rule : std::uint8_t { frame_counters, station_counters };
+    enum class Rule : std::uint8_t { frame_counters, station_counters, station_window };
     // Usually the same for all stations.
     struct Rules {
         Limits limits{};
@@ -77,9 +78,13 @@ private:
     bool failed(Failures& failures, int limit) {
         const bool may_go_on = ++failures.of_frame < limit;
         ++failures.of_station;
+        ++failures_in_a_row_;
         if (rules_.rule == Rule::station_counters && failures.of_station == limit) {
             cw_ = rules_.window.min;
-        } else if (rules_.rule == Rule::station_counters || may_go_on) {
+        } else if (rules_.rule == Rule::station_window && failures_in_a_row_ > rules_.limits.short_failures) {
+            failures_in_a_row_ = 0;
+            cw_ = rules_.window.min;
+        } else if (rules_.rule != Rule::frame_counters || may_go_on) {
             cw_ = std::min(2 * cw_ + 1, rules_.window.max);
         }
         return may_go_on;
@@ -87,12 +92,14 @@ private:
     void forget_frame() { short_.of_frame = long_.of_frame = 0; }
     void start_afresh() {
         forget_frame();
+        failures_in_a_row_ = 0;
         cw_ = rules_.window.min;
     }
 
     const Rules& rules_;
     Failures short_;
     Failures long_;
+    int failures_in_a_row_ = 0;  // of the station; for Rule::station_window
     int cw_;
 };
 

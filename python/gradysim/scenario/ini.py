@@ -25,7 +25,7 @@ GENERAL = "General"
 """The section that every configuration falls back on; entries before the first section go there."""
 
 PROFILES = Path(__file__).parent / "profiles"
-"""Files that come with the package, to be included: settings with which the engine follows another simulator."""
+"""Directory of the files that come with the package: each makes the engine follow another simulator."""
 
 _HEADING = re.compile(r"\[\s*(?:(?P<kind>Config|Level)\s+)?(?P<name>[^\s\[\]]+)\s*\]")
 

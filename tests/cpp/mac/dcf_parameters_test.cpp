@@ -68,6 +68,9 @@ TEST(DcfParameters, TheLongestWaitIsThatOfTheLargestWindowThatANewMessageMayFind
     EXPECT_EQ(of(mac).longest_wait, SimTime::from_us(28 + 7 * 9));
     mac.inet_station_retry_counters = true;
     EXPECT_EQ(of(mac).longest_wait, SimTime::from_us(28 + 255 * 9));
+    mac.inet_station_retry_counters = false;
+    mac.ns3_station_window = true;
+    EXPECT_EQ(of(mac).longest_wait, SimTime::from_us(28 + 255 * 9));
 }
 
 }  // namespace

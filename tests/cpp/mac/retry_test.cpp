@@ -9,6 +9,8 @@ namespace {
 
 constexpr Retry::Rules usual{{.short_failures = 7, .long_failures = 4}, {.min = 15, .max = 100}};
 constexpr Retry::Rules two_failures{{.short_failures = 2, .long_failures = 2}, {.min = 15, .max = 100}};
+constexpr Retry::Rules window_of_station{two_failures.limits, two_failures.window,
+                                         Retry::Rule::station_window};
 constexpr Retry::Rules two_of_station{two_failures.limits, two_failures.window,
                                       Retry::Rule::station_counters};
 
@@ -125,6 +127,27 @@ TEST_F(RetryOfStation, ABroadcastEndsTheRowAndLeavesTheWindow) {
     retry_.broadcast_sent();
     EXPECT_EQ(retry_.contention_window(), 63);
     EXPECT_EQ(windows_after_short_failures(retry_, 2), (std::vector{100, 15}));
+}
+
+// The window of ns-3: two failures for each frame, and the third in a row resets the window.
+class WindowOfStation : public RetryOfStation {
+protected:
+    Retry retry_{window_of_station};
+};
+
+TEST_F(WindowOfStation, AFrameGivenUpLeavesIt) {
+    EXPECT_EQ(windows_after_short_failures(retry_, 2), (std::vector{31, 63}));
+}
+
+TEST_F(WindowOfStation, EveryThirdFailureResetsIt) {
+    EXPECT_EQ(windows_after_short_failures(retry_, 7), (std::vector{31, 63, 15, 31, 63, 15, 31}));
+}
+
+TEST_F(WindowOfStation, AnAckResetsItAndEndsTheRow) {
+    windows_after_short_failures(retry_, 2);
+    retry_.acknowledged(false);
+    EXPECT_EQ(retry_.contention_window(), 15);
+    EXPECT_EQ(windows_after_short_failures(retry_, 3), (std::vector{31, 63, 15}));
 }
 
 }  // namespace
