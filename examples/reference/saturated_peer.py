@@ -1,7 +1,6 @@
 """A node that always has something to send, and counts what it receives."""
 
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
-
 from saturating_source import SaturatingSource
 
 
