@@ -42,6 +42,7 @@ struct MacConfig {
     bool skip_backoff_if_idle = false;
     bool own_frames_set_nav = true;  // as in INET; in the standard, only frames of other stations do
     bool inet_eifs = false;          // mac/contention.hpp
+    bool ns3_eifs = false;           // mac/contention.hpp
 
     std::string rate_control;  // of unicast frames, attempt by attempt
     double initial_rate_bps = -1;

@@ -16,7 +16,8 @@
 // channel free after a corrupted frame, until a frame is received correctly. With `inet_eifs`, it
 // follows INET's rules: only at a station that waits for the channel, from the end of the corrupted
 // frame on. There, a correct frame does not end it, and a busy period that ends within it is
-// followed by a whole EIFS.
+// followed by a whole EIFS. With `ns3_eifs`, it begins at the end of the corrupted frame, too, even if
+// others still make the channel busy, and the rest is the standard's.
 //
 // Two stations whose slots end at the same instant both transmit and collide: neither can have
 // sensed the other by then. A grant is the last event of its instant, so that it sees all other
@@ -75,10 +76,10 @@ public:
     bool awaits_end_of_broken_frame() const { return broken_frame_; }
     // A frame was corrupted; the radio still finds the channel busy with it.
     void frame_corrupted() {
-        if (!parameters_.config.inet_eifs) {
-            broken_frame_ = true;
-        } else if (in_progress()) {
+        if (parameters_.config.ns3_eifs || (parameters_.config.inet_eifs && in_progress())) {
             eifs_until_ = simulator().now() + parameters_.timing.eifs;
+        } else if (!parameters_.config.inet_eifs) {
+            broken_frame_ = true;
         }
     }
     // The radio finds the channel free again. After a corrupted frame, EIFS begins here, regardless

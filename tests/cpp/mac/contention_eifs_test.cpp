@@ -137,5 +137,39 @@ TEST_F(InetEifsTest, WhatEndsWithinItIsFollowedByAWholeOne) {
     EXPECT_EQ(grants, std::vector{us(1200) + eifs});
 }
 
+class Ns3EifsTest : public ContentionTest {
+protected:
+    Ns3EifsTest() {
+        MacConfig config;
+        config.ns3_eifs = true;
+        contention(config);
+    }
+};
+
+TEST_F(Ns3EifsTest, BeginsWithTheEndOfTheBrokenFrame) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(900));
+    run();
+    EXPECT_EQ(grants, std::vector{us(900) + eifs});
+}
+
+TEST_F(Ns3EifsTest, IsOverIfTheChannelIsBusyForLonger) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(100));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
+TEST_F(Ns3EifsTest, AGoodFrameEndsIt) {
+    busy_at(us(0), us(1000));
+    start_at(us(500));
+    corrupted_at(us(900));
+    received_at(us(999));
+    run();
+    EXPECT_EQ(grants, std::vector{us(1000) + difs});
+}
+
 }  // namespace
 }  // namespace netsim

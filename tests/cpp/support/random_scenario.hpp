@@ -68,6 +68,10 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
     RandomStream mode_draws(seed, 5, Purpose{1001});
     const bool of_several_modes = mode_draws.uniform() < 0.3;
 
+    // The same for rules of ns-3's channel access, drawn for each node.
+    RandomStream ns3_draws(seed, 7, Purpose{1001});
+    const bool with_ns3_rules = ns3_draws.uniform() < 0.3;
+
     const int count = fewest_nodes + static_cast<int>(draws.uniform_int(max_nodes - fewest_nodes + 1));
     for (int id = 0; id < count; ++id) {
         NodeConfig node("node " + std::to_string(id));
@@ -123,6 +127,10 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
             mac.own_frames_set_nav = rts_draws.uniform() < 0.7;
             mac.inet_eifs = rts_draws.uniform() < 0.3;
             mac.inet_station_retry_counters = rts_draws.uniform() < 0.3;
+        }
+        if (with_ns3_rules) {
+            mac.ns3_eifs = ns3_draws.uniform() < 0.5;
+            mac.ns3_station_window = ns3_draws.uniform() < 0.5;
         }
         node.mobility.telemetry_interval_s = 0;
         scenario.nodes.push_back(node);
