@@ -20,7 +20,7 @@ class SaturatedPeer(SaturatingSource):
         """Schedule the first burst, and start the count at 0."""
         super().initialize()
         if self.is_broadcast:
-            self._command = BroadcastMessageCommand(self._command.message)
+            self._command = BroadcastMessageCommand("x" * self.payload_bytes)
         self._received = 0
 
     def handle_packet(self, message: str) -> None:

@@ -1,7 +1,7 @@
 """A node that always has something to send."""
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.communication import SendMessageCommand
+from gradysim.protocol.messages.communication import CommunicationCommand, SendMessageCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 
 
@@ -27,7 +27,7 @@ class SaturatingSource(IProtocol):
         """Schedule the first burst."""
         if not self.interval > 0:
             raise ValueError(f"interval is {self.interval} s, expected more than 0 s")
-        self._command = SendMessageCommand("x" * self.payload_bytes, self.destination)
+        self._command: CommunicationCommand = SendMessageCommand("x" * self.payload_bytes, self.destination)
         self._bursts = 0
         self._start = self.provider.random.uniform(0, self.spread)
         self.provider.schedule_timer("burst", self._start)

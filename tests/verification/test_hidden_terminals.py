@@ -67,8 +67,8 @@ def test_throughput_agrees_with_ns3(config: str, report: Callable[[Finding], Non
             f"{ours:.3f} Mbps against {theirs:.3f} Mbps, {off:+.2%}",
             "3 %",
             "the standard error of either mean is below 0.4 %; what a rule of channel access left out would "
-            "change is more: a window that is reset with each message given up 11 %, own frames setting the NAV "
-            "8 % (with RTS/CTS)",
+            "change is more: a window reset with each message given up 11 %, own frames setting the "
+            "NAV 8 % (with RTS/CTS)",
             abs(off) <= TOLERANCE,
         )
     )

@@ -33,8 +33,8 @@ ending.
 - A list of values, `${10ms, 50ms}`, makes one run for each (docs/reference/studies.md).
 - Values may be expressions, `50m * parentIndex()`, or random, `uniform(0m, 1km)` (docs/reference/values.md).
 - A section may have `extends = NAME` and `abstract = true`. `include FILE` inserts another file, which
-  must be a regular file, or a profile of the package (docs/how-to/behave-as-ns3-or-inet.md). A scenario has at
-  most 64 MiB, in at most 1,000 files.
+  must be a regular file, or a profile of the package (docs/how-to/behave-as-ns3-or-inet.md). A scenario has
+  at most 64 MiB, in at most 1,000 files.
 - Options that only OMNeT++ has are ignored: those for running and showing a simulation (`cmdenv-*`,
   `qtenv-*`, `ned-path`, `*.visualizer.**`), and those for recording (`result-dir`, `**.vector-recording`).
   Of `network` only the name is used.

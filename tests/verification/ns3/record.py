@@ -2,8 +2,8 @@
 
     python tests/verification/ns3/record.py >tests/verification/reference/ns3_networks.csv
 
-Needs ns-3: Debian's (`make need-ns3`), or `--prefix DIR`, the directory `ns3` of the wheel on PyPI. `tests` must be
-on PYTHONPATH. The reference was made with 3.44 from PyPI, and with Debian's 3.37 for the comparison of the two.
+Needs ns-3: Debian's (`make need-ns3`), or `--prefix DIR`, the directory `ns3` of the wheel on PyPI. `tests`
+must be on PYTHONPATH. The reference was made with 3.44 from PyPI.
 """
 
 import argparse
@@ -16,7 +16,7 @@ from tempfile import TemporaryDirectory
 
 from gradysim.scenario import Scenario
 from gradysim.scenario.ini import read_ini
-from gradysim.scenario.node_spec import Setting
+from gradysim.scenario.lookup import Setting
 from gradysim.scenario.sections import config_names
 from verification.reference_run import FOLDER, load_reference
 
