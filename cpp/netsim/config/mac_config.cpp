@@ -68,7 +68,8 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(MacConfig, inet_eifs), "mac.dcf.channelAccess.contention.inetEifs", boolean(),
      "Whether EIFS follows INET's rules instead of the standard's"},
     {NETSIM_FIELD(MacConfig, ns3_eifs), "mac.dcf.channelAccess.contention.ns3Eifs", boolean(),
-     "Whether EIFS begins at the end of the corrupted frame, as in ns-3, instead of when the channel is free"},
+     "Whether EIFS begins at the end of the corrupted frame, as in ns-3, instead of when the channel is "
+     "free"},
     {NETSIM_FIELD(MacConfig, rate_control), "mac.dcf.rateControl.typename", one_of(rate_control_names),
      "How the bit rate of unicast frames follows the losses; \"\": it is constant"},
     {NETSIM_FIELD(MacConfig, initial_rate_bps), "mac.dcf.rateControl.initialRate", bitrate(),

@@ -67,8 +67,9 @@ DcfParameters::DcfParameters(Simulator& simulator_, MacConfig mac_config)
             retry_rule_of(config)},
       // For a new message, the window is at its minimum, unless failures of earlier ones have left it
       // larger.
-      longest_wait(timing.difs + timing.slot * (retry.rule == Retry::Rule::frame_counters ? retry.window.min
-                                                                                          : retry.window.max)),
+      longest_wait(timing.difs +
+                   timing.slot *
+                       (retry.rule == Retry::Rule::frame_counters ? retry.window.min : retry.window.max)),
       has_adaptive_rate(!config.rate_control.empty()) {}
 
 }  // namespace netsim

@@ -106,9 +106,9 @@ void UnitDiskInterface::transmit(const std::shared_ptr<const Frame>& frame) {
             free_flights_.pop_back();
         }
         flights_[flight] = Flight{frame, label.number, receiver};
-        const SimTime way = timing_.is_instant() ? SimTime{}
-                                                 : SimTime::from_seconds(std::sqrt(squared_distance_m2) /
-                                                                         speed_of_light_mps);
+        const SimTime way = timing_.is_instant()
+                                ? SimTime{}
+                                : SimTime::from_seconds(std::sqrt(squared_distance_m2) / speed_of_light_mps);
         simulator_.schedule_after(airtime + way, [this, flight] { deliver(flight); });
     }
     if (FrameObserver* const observer = frame_fates_.observer(); observer != nullptr) {
@@ -132,9 +132,8 @@ void UnitDiskInterface::transmit(const std::shared_ptr<const Frame>& frame) {
     if (timing_.is_instant()) {
         end_exchange(message_kind(*frame), fate);
     } else {
-        simulator_.schedule_after(exchange, [this, kind = message_kind(*frame), fate] {
-            end_exchange(kind, fate);
-        });
+        simulator_.schedule_after(exchange,
+                                  [this, kind = message_kind(*frame), fate] { end_exchange(kind, fate); });
     }
 }
 

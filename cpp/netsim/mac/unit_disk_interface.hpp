@@ -41,7 +41,8 @@ struct UnitDiskChannel {
 class UnitDiskInterface final : public NetworkInterface {
 public:
     UnitDiskInterface(Simulator& simulator, UnitDiskChannel& channel, InterfaceId interface, double range_m,
-                      UnitDiskTiming timing, const Trajectory& trajectory, FrameFates& frame_fates, Fingerprint& fingerprint);
+                      UnitDiskTiming timing, const Trajectory& trajectory, FrameFates& frame_fates,
+                      Fingerprint& fingerprint);
     UnitDiskInterface(const UnitDiskInterface&) = delete;
     UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 

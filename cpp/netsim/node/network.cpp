@@ -50,10 +50,9 @@ Node& Network::add_node(const NodeConfig& config) {
 std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig& config, InterfaceId id,
                                                           const Node& node) {
     if (perfect_channel_) {
-        return std::make_unique<UnitDiskInterface>(simulator_, unit_disk_, id,
-                                                   config.radio.communication_range_m,
-                                                   UnitDiskTiming(timing_, config), node.trajectory(),
-                                                   frame_fates_, fingerprint_);
+        return std::make_unique<UnitDiskInterface>(
+            simulator_, unit_disk_, id, config.radio.communication_range_m, UnitDiskTiming(timing_, config),
+            node.trajectory(), frame_fates_, fingerprint_);
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
     Radio& radio = radios_.emplace_back(id, radio_model(config.radio), config.radio.tx_power_w,
