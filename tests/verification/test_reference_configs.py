@@ -19,13 +19,13 @@ from verification.reference_run import FOLDER, load_reference
 BASES = {"Sensitivity", "Noise"}
 COMPLETED = {
     *("flyby", "hidden_inet", "link", "narrowband", "narrowband_contention", "saturation"),
-    "unicast_failures",
+    *("ns3_networks", "unicast_failures"),
 }
 """Files whose General runs only with the other configurations."""
 FILES = {
     *("beacons", "capture", "flood", "flyby", "hidden", "hidden_inet", "jittered", "link", "narrowband"),
     *("narrowband_contention", "narrowband_link", "rate_control", "rate_control_inet", "saturation", "sir"),
-    *("synchronised", "unicast_failures"),
+    *("ns3_networks", "synchronised", "unicast_failures"),
 }
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
@@ -44,7 +44,7 @@ def runnable() -> list[tuple[str, str]]:
 @cache
 def short_run(name: str, config: str) -> Scenario:
     # Saturated stations are busy from the start, and need much computation.
-    limit_s = 0.1 if name == "saturation" else 1.5
+    limit_s = 0.1 if name in ("saturation", "ns3_networks") else 1.5
     file = FOLDER / f"{name}.ini"
     return load_scenarios(file, config, runs=[0], overrides=[f"sim-time-limit = {limit_s}s"])[0]
 

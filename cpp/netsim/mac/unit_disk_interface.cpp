@@ -65,13 +65,20 @@ void UnitDiskInterface::wait_for_channel() {
 
 void UnitDiskInterface::access_channel() {
     waits_ = false;
-    if (free_at() <= simulator_.now()) {
-        const std::shared_ptr<const Frame> frame = queue_.front();
-        queue_.pop();
-        transmit(frame);
+    if (free_at() > simulator_.now()) {
+        wait_for_channel();
+        return;
     }
-    // Senders that found the channel occupied are first in the queue of events: they take turns.
-    wait_for_channel();
+    const std::shared_ptr<const Frame> frame = queue_.front();
+    queue_.pop();
+    transmit(frame);
+    if (!queue_.empty()) {  // in two steps: senders that find the channel occupied now come first
+        waits_ = true;
+        simulator_.schedule_at(free_at(), [this] {
+            waits_ = false;
+            wait_for_channel();
+        });
+    }
 }
 
 void UnitDiskInterface::transmit(const std::shared_ptr<const Frame>& frame) {

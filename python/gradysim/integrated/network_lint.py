@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from gradysim.integrated.network import by_kind, medium_config, node_config, one_of_each_kind
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import Source
+from gradysim.scenario.ini import PROFILES
 from gradysim.scenario.keys import IEEE802154, NETWORK_KEYS, NODE_KEYS, OF_802154, has_radios, written_for
 from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.lookup import Setting
@@ -92,7 +93,7 @@ class UnreadLines:
         """
         for target, source in sources.items():
             choice = unmet_choice(target, chosen)
-            if choice is None:
+            if choice is None or source.file.parent == PROFILES:  # a profile is meant to be overridden
                 self._read.add(source)
                 continue
             prefix = "*." if choice.chosen_by in _CHOOSERS_OF_THE_NETWORK else f"*.{node}."

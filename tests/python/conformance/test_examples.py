@@ -44,6 +44,11 @@ CASES = {  # file in configs, up to a comma: (configuration, reach in meters, mo
             '*.receivers[*].protocol.class = "../../examples/reference/sink.py:Sink"',
         ),
     ),
+    "reference/ns3_networks": (
+        "Hidden3",
+        120,
+        ("sim-time-limit = 50ms", "**.protocol.count_from = 10ms"),
+    ),
     "reference/rate_control": ("Fixed", 1000, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),
     "reference/rate_control_inet": ("ArfTimer", 1000, ()),
     "reference/saturation": ("G54", 100, ("sim-time-limit = 50ms", "*.sink.protocol.count_from = 10ms")),

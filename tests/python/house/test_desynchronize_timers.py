@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -21,3 +22,9 @@ def test_its_command_prints_what_it_shows(
     (command,) = code_blocks(GUIDE, "sh")
     assert shell(command, tmp_path).split() == code_blocks(GUIDE, "text")[0].split()
     assert (tmp_path / "results/jitter.png").stat().st_size
+
+
+def test_its_protocol_waits_for_a_random_time(code_blocks: CodeBlocks) -> None:
+    names: dict[str, Any] = {}
+    exec("\n".join(code_blocks(GUIDE, "python")), names)
+    assert names["Reporter"].jitter == 0.01

@@ -75,6 +75,8 @@ def test_a_test_runs_them(root: Path, project_files: Callable[..., list[Path]]) 
 def test_a_snippet_runs(document: str, number: int, tmp_path: Path) -> None:
     """The snippet runs after those before it on the page, as in one file."""
     texts = programs(_ROOT / document)
+    for name in ("configs", "examples"):
+        (tmp_path / name).symlink_to(_ROOT / name)
     if document in SAVED_AS:
         (tmp_path / f"{SAVED_AS[document]}.py").write_text(texts.pop(1))
         number = min(number, len(texts) - 1)

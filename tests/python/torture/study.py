@@ -134,6 +134,6 @@ def assert_resume_completes(folder: Path, random: Random) -> None:
     _, error_output = process.communicate(timeout=60)
     assert process.returncode == 0, error_output
     found = content_of(folder / OUT)
-    assert found.keys() == expected.keys()
+    assert found.keys() == expected.keys(), found.keys() ^ expected.keys()
     for name, content in expected.items():
         assert found[name] == content, name
