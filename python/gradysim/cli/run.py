@@ -77,6 +77,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     """
     from gradysim.cli.executors import Workers, check_executor, workers_of
     from gradysim.integrated.compiled_part import CompiledPartMissingError
+    from gradysim.results.run_lock import remove_left_over_files
     from gradysim.scenario.errors import ConfigError
 
     begin_s = time.monotonic()
@@ -87,6 +88,8 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             stop_after_s = checked_duration(options.stop_after)
             prepared = _prepare(file, options)
             if prepared is None:
+                if options.is_writer:  # a killed command may have left some after its last run
+                    remove_left_over_files(options.directory)
                 return OK
             if executor is not None:
                 workers: Workers | None = Workers(executor, lambda: options.jobs)

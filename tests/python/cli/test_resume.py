@@ -92,3 +92,12 @@ def test_a_run_whose_file_has_a_changed_digit_begins_anew(gradysim, folder):
     done = gradysim(*arguments, "--resume", "--json")
     assert [run["run"] for run in objects(done.stdout)] == [1]
     assert gradysim("means", "out").returncode == 0
+
+
+def test_the_lock_of_a_killed_command_goes_if_all_runs_are_done(gradysim, folder):
+    command = ("run", "test.ini", "--mode", "prototype", "--result-dir", "out")
+    gradysim(*command)
+    lock = folder / "out" / ".gradysim.lock"
+    lock.touch()
+    gradysim(*command, "--resume")
+    assert not lock.exists()
