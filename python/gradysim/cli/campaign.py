@@ -32,11 +32,14 @@ def campaign_of(file: Path, options: CampaignOptions, run_count: int) -> "Campai
 
 @contextmanager
 def executor_of(options: CampaignOptions) -> "Iterator[Executor]":
-    """Yield an executor with a process for each run."""
+    """Yield an executor with a process for each run.
+
+    No run has a result to keep, so the first Ctrl-C raises KeyboardInterrupt, and all processes are killed.
+    """
     from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.runner import ForkExecutor
 
-    with StopOnInterrupt() as interrupt, ForkExecutor(options.jobs, interrupt) as executor:
+    with ForkExecutor(options.jobs, StopOnInterrupt()) as executor:
         yield executor
 
 

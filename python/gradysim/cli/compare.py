@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from gradysim.results.paired import Estimate
     from gradysim.results.run_table import Runs
 
+_ROUNDING = 1e-12
+"""Relative error of a mean of floats, at most."""
+
 DEFAULTS = CompareOptions()
 
 _BEFORE = ("quantity", "pairs")
@@ -150,14 +153,13 @@ def changes_table(changes: "Sequence[Change]", names: tuple[str, str], what: str
     if title := ", ".join(filter(None, [_title(changes, varying), what])):
         table.title = Text(title, style="table.title")
     for heading in [*(f"${name}" for name in varying), "quantity"]:
-        table.add_column(Text(heading), overflow="fold")
-    for heading in (*names, "difference", "± (95 %)", "", "pairs"):
-        table.add_column(Text(heading), justify="right", no_wrap=heading not in names)
+        table.add_column(Text(heading))
+    for heading in (*names, "difference", "± (95 %)", "pairs"):
+        table.add_column(Text(heading), justify="right", no_wrap=True)
     for change in changes:
         cells = [str(change.values.get(name, "")) for name in varying]
-        cells += [change.quantity, _number(change.first, ".6g"), _number(change.second, ".6g")]
-        cells += [_number(change.difference, "+.4g"), _half_width(change.difference)]
-        cells += ["*" if change.difference and change.difference.excludes_zero else ""]
+        cells += [change.quantity, _number(change.first, ".4g"), _number(change.second, ".4g")]
+        cells += [_difference(change), _half_width(change.difference)]
         table.add_row(*map(Text, [*cells, str(change.pairs)]))
     return table
 
@@ -178,8 +180,18 @@ def _number(estimate: "Estimate | None", digits: str) -> str:
     return f"{estimate.mean:{digits}}" if estimate.mean else "0"
 
 
+def _difference(change: "Change") -> str:
+    """Return the difference, without what is only the rounding error of the means."""
+    if change.difference is None or change.first is None:
+        return ""
+    is_rounded = abs(change.difference.mean) < _ROUNDING * abs(change.first.mean)
+    return "0" if is_rounded else _number(change.difference, "+.4g")
+
+
 def _half_width(estimate: "Estimate | None") -> str:
-    return "" if estimate is None or estimate.half_width is None else f"{estimate.half_width:.3g}"
+    if estimate is None or estimate.half_width is None:
+        return ""
+    return f"{estimate.half_width:.3g} {'*' if estimate.excludes_zero else ' '}"
 
 
 def write_csv(changes: "Sequence[Change]", output: TextIO) -> None:

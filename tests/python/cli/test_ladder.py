@@ -1,11 +1,16 @@
 """`gradysim ladder`, `bisect` and `desync` on two UAVs that talk."""
 
+import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from gradysim.cli.errors import FAILED, MISTAKE, OK
-from python.cli.command import Gradysim
+from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK
+from python.cli.command import Gradysim, environment
+from python.processes import session, wait_until
 
 pytest.importorskip("gradysim._netsim")
 
@@ -63,3 +68,17 @@ def test_nothing_is_delayed_if_nothing_clashes(gradysim: Gradysim) -> None:
     done = gradysim("desync", "test.ini", "-n", "1")
     assert "None of 20 receptions" in done.stdout
     assert done.returncode == OK
+
+
+def test_ctrl_c_ends_a_command_at_once_with_all_of_its_processes(folder: Path) -> None:
+    command = [sys.executable, "-m", "gradysim", *LADDER, "-c", "Endless"]
+    with subprocess.Popen(
+        command, cwd=folder, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True
+    ) as process:
+        assert process.stderr is not None
+        while "ready" not in (line := process.stderr.readline()):
+            assert line, "it ended before it was ready"
+        os.kill(process.pid, signal.SIGINT)
+        process.communicate(timeout=30)
+    assert process.returncode == INTERRUPTED
+    wait_until(lambda: not session(process.pid), 5)
