@@ -96,6 +96,14 @@ def shell(root: Path, tmp_path: Path) -> Callable[[str, Path], str]:
 
 
 @pytest.fixture
+def clone(root: Path, tmp_path: Path) -> Path:
+    """Return a directory with the configurations and examples of the project, for commands that write."""
+    for name in ("configs", "examples"):
+        (tmp_path / name).symlink_to(root / name)
+    return tmp_path
+
+
+@pytest.fixture
 def swarm(shell: Callable[[str, Path], str], tmp_path: Path) -> Path:
     """Return a directory with `swarm`, the project of several guides, made by `gradysim new`."""
     shell("gradysim new swarm", tmp_path)

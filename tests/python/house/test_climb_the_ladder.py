@@ -17,20 +17,18 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.mark.parametrize("number", [0, 1])
 def test_its_commands_print_what_it_shows(
-    number: int, code_blocks: CodeBlocks, shell: Callable[[str, Path], str], root: Path, tmp_path: Path
+    number: int, code_blocks: CodeBlocks, shell: Callable[[str, Path], str], clone: Path
 ) -> None:
-    for name in ("configs", "examples"):
-        (tmp_path / name).symlink_to(root / name)
-    (tmp_path / "harsh.ini").write_text(code_blocks(GUIDE, "ini")[0])
-    printed = shell(code_blocks(GUIDE, "sh")[number], tmp_path).splitlines()
+    (clone / "harsh.ini").write_text(code_blocks(GUIDE, "ini")[0])
+    printed = shell(code_blocks(GUIDE, "sh")[number], clone).splitlines()
     assert [line.rstrip() for line in printed] == code_blocks(GUIDE, "text")[number].splitlines()
-    assert number or (tmp_path / "results/ladder.png").stat().st_size
+    assert number or (clone / "results/ladder.png").stat().st_size
 
 
 def test_its_script_prints_what_it_shows(
-    code_blocks: CodeBlocks, root: Path, monkeypatch: pytest.MonkeyPatch
+    code_blocks: CodeBlocks, clone: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.chdir(root)
+    monkeypatch.chdir(clone)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec("\n".join(code_blocks(GUIDE, "python")), {})

@@ -16,19 +16,17 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 
 def test_its_commands_print_what_it_shows(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], root: Path, tmp_path: Path
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], root: Path, clone: Path
 ) -> None:
-    for name in ("configs", "examples"):
-        (tmp_path / name).symlink_to(root / name)
     studies, others, modes = code_blocks(GUIDE, "sh")
     shown = code_blocks(GUIDE, "text")
     for commands, expected in ((studies, shown[0]), (modes, shown[1])):
-        printed = shell(commands, tmp_path).splitlines()
+        printed = shell(commands, clone).splitlines()
         assert [line.rstrip() for line in printed] == expected.splitlines()
-    assert (tmp_path / "results/compare.png").stat().st_size
+    assert (clone / "results/compare.png").stat().st_size
     assert "results/compare.png" in (root / "Makefile").read_text()
-    shell(others, tmp_path)
-    lines = (tmp_path / "results/compare-reports.csv").read_text().splitlines()
+    shell(others, clone)
+    lines = (clone / "results/compare-reports.csv").read_text().splitlines()
     assert "base reports" in lines[1]
 
 

@@ -72,20 +72,18 @@ def test_a_test_runs_them(root: Path, project_files: Callable[..., list[Path]]) 
 
 
 @pytest.mark.parametrize(("document", "number"), snippets())
-def test_a_snippet_runs(document: str, number: int, tmp_path: Path) -> None:
+def test_a_snippet_runs(document: str, number: int, clone: Path) -> None:
     """The snippet runs after those before it on the page, as in one file."""
     texts = programs(_ROOT / document)
-    for name in ("configs", "examples"):
-        (tmp_path / name).symlink_to(_ROOT / name)
     if document in SAVED_AS:
-        (tmp_path / f"{SAVED_AS[document]}.py").write_text(texts.pop(1))
+        (clone / f"{SAVED_AS[document]}.py").write_text(texts.pop(1))
         number = min(number, len(texts) - 1)
     texts = texts[: number + 1]
-    (tmp_path / "page.py").write_text("\n\n".join(texts))
+    (clone / "page.py").write_text("\n\n".join(texts))
     command = ["-c", "import page"] if document in NEEDS_AN_AUTOPILOT else ["page.py"]
     done = subprocess.run(
         [sys.executable, "-W", "error", *command],
-        cwd=tmp_path,
+        cwd=clone,
         env={**os.environ, "PYTHONPATH": str(_ROOT / "python")},
         capture_output=True,
         text=True,
