@@ -10,7 +10,7 @@ the name of a quantity of `gradysim means`. `x` and `by` are names of variables:
 `save_figure` draws one and writes its files. `STYLE` are settings for `matplotlib.rc_context`.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
@@ -25,11 +25,13 @@ from gradysim.plots.numbers import Numbers
 from gradysim.plots.outcomes import draw_outcomes, outcome_names, outcomes_numbers
 from gradysim.plots.time import draw_time, time_numbers, vector_names
 from gradysim.results.compare import Change, Pairs
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs
 from gradysim.scenario.errors import ConfigError
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 __all__ = [
     "STYLE",
@@ -95,7 +97,7 @@ def map(axes: "Axes", runs: Runs) -> "Axes":
     return draw_map(axes, map_numbers(runs))
 
 
-_MOST_LEVEL_TICKS = 5
+_MOST_CATEGORIES = 5
 """Largest number of categories whose names fit next to each other."""
 
 
@@ -165,17 +167,9 @@ def save_figure(
             raise ConfigError(f"--kind {kind} does not take --{name}", expected=takes)
     check_file(path, list(runs))
     figure = new_figure(columns)
-    from matplotlib import rc_context
-
     numbers = chosen.numbers(runs, **given)
-    with rc_context(STYLE):
-        axes = chosen.draw(figure.subplots(), numbers)
-        for axis in log:
-            if getattr(axes.dataLim, f"minpos{axis}") == inf:
-                raise ConfigError(f"--log {axis}: no value on this axis is positive")
-            getattr(axes, f"set_{axis}scale")("log")
-        origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
-        return write_files(figure, path, numbers, list(runs), origin)
+    origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
+    return _save(path, numbers, chosen.draw, list(runs), origin, figure, log)
 
 
 def save_numbers(
@@ -194,18 +188,16 @@ def save_numbers(
         ImportError: matplotlib is missing.
         OSError: A file cannot be written.
     """
+
+    def draw(axes: "Axes", numbers: Numbers) -> "Axes":
+        draw_line(axes, numbers)
+        if len(numbers.categories) > _MOST_CATEGORIES:
+            axes.tick_params("x", rotation=30)
+        return axes
+
     path = Path(path)
     check_file(path, [])
-    figure = new_figure()
-    from matplotlib import rc_context
-
-    with rc_context(STYLE):
-        axes = draw_line(figure.subplots(), numbers)
-        for axis in log:
-            getattr(axes, f"set_{axis}scale")("log")
-        if len(numbers.categories) > _MOST_LEVEL_TICKS:
-            axes.tick_params("x", rotation=30)
-        return write_files(figure, path, numbers, [], origin)
+    return _save(path, numbers, draw, (), origin, new_figure(), log)
 
 
 def save_changes(
@@ -230,8 +222,25 @@ def save_changes(
     numbers = changes_numbers(changes, first, second)
     figure = new_figure()
     figure.set_figheight(changes_height_in(numbers))
+    return _save(path, numbers, draw_changes, pairs.all_runs, {"compared": [first, second]}, figure)
+
+
+def _save(
+    path: Path,
+    numbers: Numbers,
+    draw: Callable[["Axes", Numbers], "Axes"],
+    runs: Sequence[RunSummary],
+    origin: Mapping[str, object],
+    figure: "Figure",
+    log: Iterable[str] = (),
+) -> tuple[Path, Path, Path]:
+    """Draw numbers into a figure, and write the three files."""
     from matplotlib import rc_context
 
     with rc_context(STYLE):
-        draw_changes(figure.subplots(), numbers)
-        return write_files(figure, path, numbers, pairs.all_runs, {"compared": [first, second]})
+        axes = draw(figure.subplots(), numbers)
+        for axis in log:
+            if getattr(axes.dataLim, f"minpos{axis}") == inf:
+                raise ConfigError(f"--log {axis}: no value on this axis is positive")
+            getattr(axes, f"set_{axis}scale")("log")
+        return write_files(figure, path, numbers, runs, origin)
