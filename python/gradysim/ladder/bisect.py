@@ -128,9 +128,12 @@ class Bisection:
         self._run(self._effects(0), _AT_ENDS)
         self._run(self._effects(top), _AT_ENDS)
         self._high, self._low = self.at_level(0).ratio, self.at_level(top).ratio
+        if self._high < 0.5:
+            return Verdict(None, 0, True, run_count=self.run_count)
+        if self._low == 1 or self._low >= self._high:
+            return Verdict(top, None, True, run_count=self.run_count)
         if self._high - self._low < _LEAST_DIFFERENCE:
-            survives = self._high >= 0.5
-            return Verdict(top if survives else None, None if survives else 0, True, run_count=self.run_count)
+            return Verdict(0, top, False, (), self._run_that_differs(0, top), self.run_count)
         works, fails = 0, top
         try:
             while fails - works > 1:

@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from gradysim.replay.reader import Replay
 from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
+from gradysim.results.tracked_variables import group_of
 
 Verdict = Literal["saturated", "hidden", "synchronized", "drifting", "random"]
 
@@ -203,7 +204,7 @@ class _Run:
     """Tables of a replay, indexed."""
 
     def __init__(self, replay: Replay) -> None:
-        self._groups = {node["id"]: _group(node, replay.run["nodes"]) for node in replay.run["nodes"]}
+        self._groups = {node["id"]: group_of(node["name"]) for node in replay.run["nodes"]}
         self._frames: dict[str, Any] = replay.table("frames")
         self._ends = [
             start + duration
@@ -343,11 +344,6 @@ class _Run:
         for node, duration_ns in zip(self._frames["node"], self._frames["duration_ns"], strict=True):
             busy_ns[node] += duration_ns
         return max(busy_ns.values(), default=0) / _NS_PER_S / end_s if end_s else 0.0
-
-
-def _group(node: Mapping[str, Any], nodes: Sequence[Mapping[str, Any]]) -> str:
-    group: str = node["group"]
-    return group if node["name"] == group else f"{group}[*]"
 
 
 def _interferers(replay: Replay) -> dict[tuple[int, int], set[int]]:

@@ -48,6 +48,7 @@ class Desync:
         trials: The curve, by jitter; empty without timers.
         jitter_s: The smallest jitter whose delivery is within 1 % of the best; None without timers.
         runs_per_trial: Runs with each jitter.
+        no_trials: Why no jitter was tried; "" with trials.
     """
 
     diagnosis: Diagnosis
@@ -55,6 +56,7 @@ class Desync:
     trials: tuple[Trial, ...] = ()
     jitter_s: float | None = None
     runs_per_trial: int = 0
+    no_trials: str = ""
 
     @property
     def run_count(self) -> int:
@@ -84,8 +86,10 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
             executor.submit(record).result()
         diagnosis = diagnose(read_replay(path))
     fixable = [pattern for pattern in diagnosis.patterns if is_fixable(pattern)]
-    if not fixable or sum(each.count for each in fixable) < _LEAST_CLASHES * diagnosis.receptions:
-        return Desync(diagnosis)
+    if not fixable:
+        return Desync(diagnosis, no_trials="a delay of timers does not help against these clashes")
+    if sum(each.count for each in fixable) < _LEAST_CLASHES * diagnosis.receptions:
+        return Desync(diagnosis, no_trials=f"timers cost less than {_LEAST_CLASHES:.0%} of the receptions")
     timers = tuple(
         dict.fromkeys(
             (origin.group, origin.timer) for each in fixable for origin in each.origins if origin.is_timer
@@ -94,7 +98,7 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
     without = Jitter(frozenset(timers), 0.0)
     nodes = campaign.scenario(campaign.all_effects, 0).nodes
     if any(is_native(spec) and without.timers_of(spec) for spec in nodes):
-        return Desync(diagnosis)
+        return Desync(diagnosis, no_trials="timers of the engine's own protocols cannot be delayed")
     period_s = max(each.period_s for each in fixable)
     observations = {
         jitter_s: campaign.observations(

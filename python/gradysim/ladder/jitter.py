@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from random import Random
 
 from gradysim.results.scenario_run import ScenarioRun
-from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.native_protocols import NativeProtocol
+from gradysim.results.tracked_variables import group_of
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
@@ -24,22 +23,19 @@ class Jitter:
     longest_s: float
 
     def add_to(self, run: ScenarioRun, scenario: Scenario) -> None:
-        """Delay the timers of a run that has not begun.
+        """Delay the timers of a run, before its start. Protocols of the engine have no such timers.
 
-        The delays are drawn from random streams of their own, so that all other draws stay the same. Raises
-        ConfigError for a protocol of the engine.
+        The delays are drawn from random streams of their own, so that all other draws stay the same.
         """
         for spec in scenario.nodes:
             if names := self.timers_of(spec):
-                _check_delays(spec)
                 provider = run.node(spec.name).provider
                 stream = Random(f"{scenario.seed} {spec.id}")
                 provider.schedule_timer = self._delayed(provider.schedule_timer, names, stream)
 
     def timers_of(self, spec: NodeSpec) -> set[str]:
         """Return the names of the delayed timers of a node."""
-        group = spec.group if spec.name == spec.group else f"{spec.group}[*]"
-        return {timer for of_group, timer in self.timers if of_group == group}
+        return {timer for group, timer in self.timers if group == group_of(spec.name)}
 
     def _delayed(
         self, schedule: Callable[[str, float], None], names: set[str], stream: Random
@@ -49,9 +45,3 @@ class Jitter:
             schedule(timer, timestamp + delay_s)
 
         return schedule_later
-
-
-def _check_delays(spec: NodeSpec) -> None:
-    if issubclass(spec.protocol, NativeProtocol):
-        text = f"{spec.name}: timers of {spec.protocol.__name__}, a protocol of the engine, cannot be delayed"
-        raise ConfigError(text, spec.protocol_sources.get(""), expected="the same protocol in Python")

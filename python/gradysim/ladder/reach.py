@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import medium_config, node_config, node_errors_at
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
+from gradysim.results.tracked_variables import group_of
 from gradysim.scenario.keys import has_radios
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
@@ -82,18 +83,15 @@ def _settings(parameter: str, nodes: Sequence[NodeSpec], values: Mapping[int, Se
     """
     groups: dict[str, list[NodeSpec]] = {}
     for spec in nodes:
-        groups.setdefault(spec.group, []).append(spec)
+        groups.setdefault(group_of(spec.name), []).append(spec)
     settings = []
     for group, members in groups.items():
-        first = members[0]
-        if all(values[spec.id] == values[first.id] for spec in members):
-            members = [first]
-            named = group if first.name == group else f"{group}[*]"
-        else:
-            named = ""
+        named = {spec.name: values[spec.id] for spec in members}
+        if len(set(map(tuple, named.values()))) == 1:
+            named = {group: values[members[0].id]}
         settings += [
-            f"*.{named or spec.name}.wlan[{index}].radio.transmitter.{parameter}={value}"
-            for spec in members
-            for index, value in enumerate(values[spec.id])
+            f"*.{name}.wlan[{index}].radio.transmitter.{parameter}={value}"
+            for name, of_interfaces in named.items()
+            for index, value in enumerate(of_interfaces)
         ]
     return settings

@@ -46,7 +46,7 @@ class SequentialTest:
 
 
 def probability_of_pairs(better: int, worse: int) -> float:
-    """Return the probability of at least so many pairs in favor of the better setting, by chance alone.
+    """Return the probability of at least that many pairs in favor of the better setting, by chance alone.
 
     `better` pairs of runs with a common seed succeeded in it only, `worse` pairs in the other one only. It is
     the one-sided p of McNemar's exact test.

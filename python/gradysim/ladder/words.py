@@ -47,7 +47,8 @@ def verdict_sentences(bisection: Bisection, verdict: Verdict) -> Iterator[str]:
     else:
         yield (
             f"Undecided after {verdict.run_count} runs: the protocol works at level {verdict.works},"
-            f" {works.name}, and fails at level {verdict.fails}, {fails.name}."
+            f" {works.name}, in {bisection.at_level(verdict.works)}, and at level {verdict.fails},"
+            f" {fails.name}, in {bisection.at_level(verdict.fails)}."
         )
     yield from _exception_sentences(bisection, verdict.fails)
     if verdict.smallest:
@@ -102,10 +103,7 @@ def desync_sentences(found: Desync) -> Iterator[str]:
     )
     yield from pattern_sentences(diagnosis, 5)
     if found.jitter_s is None:
-        yield (
-            "No jitter was tried: the clashes are too few, a delay of timers does not help against them, or"
-            " the timers are those of the engine's own protocols."
-        )
+        yield f"No jitter was tried: {found.no_trials}."
         return
     named = " and ".join(f'timer "{timer}" of {group}' for group, timer in found.timers)
     first, best = found.trials[0], max(trial.delivery for trial in found.trials)

@@ -57,6 +57,23 @@ def test_a_protocol_that_never_works(bisection_of: Callable[..., Bisection]) -> 
     assert (verdict.works, verdict.fails, verdict.run_count) == (None, 0, 20)
 
 
+@pytest.mark.parametrize(
+    ("at_both_ends", "expected"),
+    [((10, 8), (0, 6)), ((9, 9), (6, None)), ((8, 10), (6, None)), ((4, 2), (None, 0))],
+)
+def test_ends_that_hardly_differ(
+    at_both_ends: tuple[int, int],
+    expected: tuple[int | None, int | None],
+    bisection_of: Callable[..., Bisection],
+) -> None:
+    bisection = bisection_of("nodes[*] heard >= 6")
+    for level, successes in zip((0, 6), at_both_ends, strict=True):
+        bisection.at_level(level).outcomes = [number < successes for number in range(10)]
+    verdict = bisection.find()
+    assert (verdict.works, verdict.fails) == expected
+    assert verdict.is_sure == (None in expected)
+
+
 def test_the_exception_of_a_protocol_is_named(bisection_of: Callable[..., Bisection]) -> None:
     bisection = bisection_of("nodes[*] heard >= 6", "**.protocol.interval=-1")
     text = "\n".join(verdict_sentences(bisection, bisection.find()))
