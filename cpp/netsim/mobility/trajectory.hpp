@@ -1,7 +1,6 @@
 // The position of a node as a function of time: a sequence of straight legs at constant speed.
 //
-// There are no events for movement; positions are computed on demand. The legs of the last second
-// are kept, because the medium computes powers of frames that started a moment ago.
+// Positions are computed on demand, without events. The legs of the last second are kept, because the medium computes powers of frames that started a moment ago.
 #pragma once
 
 #include <vector>

@@ -1,9 +1,9 @@
 """Packs: the result files of many runs in one SQLite file, which is also a `.sca` file of OMNeT++.
 
 The packs of a directory are in its directory `packs`. OMNeT++'s tables have the runs and the numbers that
-`gradysim means` averages. Three more tables have the result files: `packedRun` and `packedConditions` what a
-`RunSummary` has, and `packedText` the compressed files. A pack is replaced as a whole, so it never changes
-while it is read.
+`gradysim means` averages. Four more tables have the result files: `packedRun` and `packedConditions` what a
+`RunSummary` has, `packedText` the compressed files, and `packedDictionary` what they were compressed with. A
+pack is replaced as a whole, so it never changes while it is read.
 """
 
 import contextlib

@@ -158,7 +158,7 @@ class Quantity:
         """The number in another unit of the same dimension, rounded once.
 
         Raises:
-            BadValue: The dimensions differ, there is no unit, or the result is not a double.
+            BadValue: The dimensions differ, a unit is missing, or the result is not a double.
         """
         if self.unit is None:
             raise BadValue(f"`{self}` has no unit")
