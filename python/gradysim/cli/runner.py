@@ -104,7 +104,6 @@ class ForkExecutor(Executor):
         self._waiting: deque[tuple[RunFuture[Any], Callable[[], Any]]] = deque()
         self._workers: dict[int, _Worker] = {}
         self._files = _open_files()
-        gc.freeze()  # a collection in a worker would copy the pages of all loaded objects
         interrupt.workers = self._workers.keys()
 
     def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> RunFuture[T]:
@@ -146,6 +145,7 @@ class ForkExecutor(Executor):
             return
         for file in (sys.stdout, sys.stderr, *self._files):  # or each worker would write the buffer again
             _flush(file)
+        gc.freeze()  # or a collection in a worker would copy the pages of all objects
         with contextlib.ExitStack() as files:
             try:
                 reading, writing = os.pipe()
