@@ -9,6 +9,9 @@ from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, FailedRunError, Ob
 from gradysim.ladder.levels import Level
 from gradysim.results.paired import Estimate, compare_pairs, estimate
 
+_SMALLEST_RATIO = 0.0005
+"""Losses below it are not named: they would have 0.0 %."""
+
 
 @dataclass(frozen=True)
 class Rung:
@@ -19,7 +22,7 @@ class Rung:
         level: What it adds.
         metric: Mean over the runs, with its interval.
         change: From the level before, paired by seed; None at the first level that was run.
-        loss: The most frequent outcome of lost receptions or messages, or "".
+        loss: The most frequent outcome of lost receptions or messages; "" below 0.05 %.
         loss_ratio: Its share of the receptions within the range, or of the messages.
     """
 
@@ -96,4 +99,5 @@ def _most_frequent_loss(seen: Sequence[Observation]) -> tuple[str, float]:
     message_count = max(1, messages.total())
     ratios = {outcome: count / receptions for outcome, count in losses.items()}
     ratios |= {outcome: messages[outcome] / message_count for outcome in LOST_MESSAGES if messages[outcome]}
-    return max(ratios.items(), key=lambda item: item[1], default=("", 0.0))
+    most = max(ratios.items(), key=lambda item: item[1], default=("", 0.0))
+    return most if most[1] >= _SMALLEST_RATIO else ("", 0.0)

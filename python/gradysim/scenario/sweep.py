@@ -63,6 +63,9 @@ _MOST_DIGITS = 300
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _DEFINITION = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)(.*)", re.ASCII | re.DOTALL)
 _LOCK_STEP = re.compile(r"(.*)!\s*([A-Za-z_]\w*)\s*", re.ASCII | re.DOTALL)
+_INSIDE = re.compile(r"(?:[^\\}$]++|\\.|\$(?!\{))*+", re.DOTALL)
+_PIECE = re.compile(r'\\.|[^\\",()\[\]{}]+|.', re.DOTALL)
+"""Of a list of values: what a backslash protects, plain text, or a character with a meaning."""
 _NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _RANGE = re.compile(rf"({_NUMBER})\s*\.\.\s*({_NUMBER})(?:\s+step\s+({_NUMBER}))?", re.ASCII)
 _LIKE_A_RANGE = re.compile(r"[-+]?\.?\d[^\"']*\.\.", re.ASCII)
@@ -134,12 +137,11 @@ def _with_names(entry: Entry, variables: dict[str, IterationVariable]) -> Entry:
 
 
 def _closing_brace(entry: Entry, start: int) -> int:
-    end = start
-    while end < len(entry.text) and entry.text[end] != "}":
-        if entry.text.startswith("${", end):
-            raise ConfigError.at(entry.source, "a variable stands inside of another one; expected none there")
-        end += 2 if entry.text[end] == "\\" else 1
-    if end >= len(entry.text):
+    inside = _INSIDE.match(entry.text, start)
+    end = inside.end() if inside else start
+    if entry.text.startswith("${", end):
+        raise ConfigError.at(entry.source, "a variable stands inside of another one; expected none there")
+    if not entry.text.startswith("}", end):
         raise ConfigError.at(entry.source, "`${` is not closed; expected a `}`")
     return end
 
@@ -183,24 +185,17 @@ def _bounded(values: Iterable[str], room: int, entry: Entry) -> Iterator[str]:
 
 def _split(listed: str) -> list[str]:
     """Split at commas, but not at those in quotes, in parentheses, or behind a backslash."""
-    parts, part, depth, quoted, position = [], "", 0, False, 0
-    while position < len(listed):
-        character = listed[position]
-        if character == "\\" and listed[position + 1 : position + 2] in (",", "}"):
-            position += 1
-            part += listed[position]
-        elif character == "\\" and quoted:
-            part += listed[position : position + 2]
-            position += 1
-        elif character == "," and depth <= 0 and not quoted:
-            parts.append(part.strip())
-            part = ""
-        else:
-            quoted ^= character == '"'
-            depth += 0 if quoted else (character in "([{") - (character in ")]}")
-            part += character
-        position += 1
-    return [*parts, part.strip()]
+    parts: list[list[str]] = [[]]
+    depth, quoted = 0, False
+    for piece in _PIECE.findall(listed):
+        if not quoted and depth <= 0 and piece == ",":
+            parts.append([])
+            continue
+        quoted ^= piece == '"'
+        if not quoted:
+            depth += (piece in "([{") - (piece in ")]}")
+        parts[-1].append(piece[1] if piece in (r"\,", r"\}") else piece)
+    return ["".join(part).strip() for part in parts]
 
 
 def _values(part: str, entry: Entry) -> Iterator[str]:
