@@ -1,12 +1,11 @@
-// The future energy in the band of one receiver, as far as the active transmissions determine it,
-// and the part of it that was reported to the receiver. carrier_sense/README.md explains it with a
-// drawing.
+// The energy that the active transmissions will cause in the band of one receiver, and the part of
+// it that was reported to the receiver. carrier_sense/README.md explains it with a drawing.
 //
 // Both are step functions of time that change where an arrival starts or ends. The receiver finds
 // its channel busy at the right times if the reported energy reaches the level whenever the total
-// energy does. `report_missing` reports as many arrivals as that takes. The timeline is kept, so
-// one more transmission costs its own power and a few additions. Sums are only added to, never
-// subtracted from: beside 1 W, a level of 1e-12 W is lost to rounding.
+// energy does. `report_missing` reports the arrivals needed for that. The timeline is kept, so one
+// more transmission costs one power computation and a few additions. Powers are added, never
+// subtracted: rounding next to 1 W would swallow 1e-12 W.
 //
 // Used by the cumulative energy detection for the few receivers where bounds do not exclude a busy
 // channel.
@@ -32,35 +31,34 @@ public:
         double power_w = 0;
     };
 
-    // Resets it to noise alone. Keeps its memory.
+    // Resets the timeline to noise alone. Keeps its allocated memory.
     void begin(double noise_w);
-    // Drops what was before `now`. No arrival added later may end before `now`.
+    // Drops everything before `now`. No arrival added later may end before `now`.
     void begin_at(SimTime now);
-    // Adds an arrival that was not reported to the receiver yet.
+    // Adds an arrival that has not been reported to the receiver.
     void add_unreported(const Signal& signal);
-    // Adds an arrival that is reported in any case. The receiver may ignore it before
-    // `sensed_from`. One that exceeds the ED threshold alone is in neither sum until then: before
-    // that, the others decide.
+    // Adds an arrival that is always reported. The receiver may ignore it before `sensed_from`. An
+    // arrival that exceeds the ED threshold alone is in neither sum before that time.
     void add_reported(const Signal& signal, SimTime sensed_from, bool exceeds_ed);
 
-    // Whether all that was added has ended before `now`.
+    // Whether all added arrivals ended before `now`.
     bool is_over(SimTime now) const { return steps_.back().time < now; }
 
-    // The reported energy reaches the level from just before now until the returned time, at least.
-    // Now, if it does not reach the level.
+    // The time until which the reported energy stays at or above the level, starting just before
+    // now. Returns now if it is below the level already.
     SimTime reported_until(double level_w) const;
     std::size_t unreported_count() const { return unreported_.size(); }
-    // Reports as many arrivals as needed: calls `report(signal)` for each. Returns the headroom:
-    // how many W the sum may rise before more must be reported. Not positive if unknown.
+    // Calls `report(signal)` for each arrival that must be reported. Returns the headroom in W: how
+    // far the sum may rise before more must be reported. Not positive if unknown.
     template <typename Report>
     double report_missing(double level_w, const Report& report);
 
 private:
     static constexpr double margin = 1e-9;  // for rounding
 
-    // Holds from its time to that of the next step. A step with `is_moment` holds between several
-    // changes at one instant, whose order is unknown: all changing arrivals count for `all_w`, and
-    // none for `reported_w`.
+    // Values from `time` to the time of the next step. A step with `is_moment` stands for one
+    // instant with several changes in unknown order: all arrivals that change then count in
+    // `all_w`, and none in `reported_w`.
     struct Step {
         SimTime time;
         bool is_moment = false;
@@ -77,16 +75,16 @@ private:
     std::optional<Signal> take_strongest_unreported(const Step& step);
 
     SimTime now_;
-    // By time, moments first. The first step holds just before `now_`, and perhaps still: whether a
-    // change at `now_` has happened yet is unknown here.
+    // Sorted by time, moments first. The first step holds just before `now_` and possibly at `now_`:
+    // the timeline does not know whether a change at `now_` has happened.
     std::vector<Step> steps_;
     std::vector<Signal> unreported_;
 };
 
-// From the last step to the first, and the strongest unreported arrival first: this reports the
-// fewest. Frames that began together end in the order of their distances. The last ones must be
-// reported in any case, and often suffice while the others last, too. From first to last, nearly
-// all would be reported. A superfluous report does no harm.
+// Goes from the last step to the first, and reports the strongest arrival first, to report few.
+// Frames that began together end in the order of their distances. The last ones must be reported in
+// any case, and often suffice for the earlier steps, too. In forward order, nearly all arrivals
+// would be reported. A superfluous report does no harm.
 template <typename Report>
 double EnergyTimeline::report_missing(double level_w, const Report& report) {
     double headroom_w = std::numeric_limits<double>::infinity();

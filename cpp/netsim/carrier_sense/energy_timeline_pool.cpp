@@ -15,7 +15,7 @@ void EnergyTimelinePool::begin(RadioId radio, double noise_w, SimTime now) {
     receiver.timeline.begin(noise_w);
 }
 
-// Reclaims timelines whose arrivals are all over: what they reported is no longer on the air.
+// Reclaims timelines whose arrivals have all ended.
 void EnergyTimelinePool::reclaim(SimTime now) {
     for (std::size_t i = 0; i < timelines_.size(); ++i) {
         if (timelines_[i].timeline.is_over(now)) {

@@ -18,10 +18,10 @@ namespace netsim {
 
 struct ReceiverTimeline {
     RadioId radio = 0;
-    double headroom_w = 0;      // more than this must come before another arrival must be reported
-    std::uint64_t next_id = 0;  // of the first transmission that is not in it
-    // The reported arrivals suffice until then, when the radio is evaluated again; long ago if it
-    // was evaluated.
+    double headroom_w = 0;      // the sum may rise by this before another arrival must be reported
+    std::uint64_t next_id = 0;  // id of the first transmission that the timeline does not contain
+    // When the radio is evaluated again, because the reported arrivals suffice until then. Long ago
+    // if no evaluation is deferred.
     SimTime deferred_until = SimTime::long_ago();
     EnergyTimeline timeline;
 };
@@ -31,15 +31,15 @@ public:
     // Radios are numbered in the order of being added.
     void add_radio() { index_of_.push_back(none); }
     bool has(RadioId radio) const { return index_of_[radio] != none; }
-    // The radio's timeline; a new one with noise alone if it has none. That may reclaim others that
-    // ended before `now`.
+    // The radio's timeline. If it has none, a new one with noise alone; that may reclaim timelines
+    // that ended before `now`.
     ReceiverTimeline& of(RadioId radio, double noise_w, SimTime now) {
         if (!has(radio)) {
             begin(radio, noise_w, now);
         }
         return timelines_[index_of_[radio]];
     }
-    // Timelines in memory: the most that were needed at one time, and a few more.
+    // Timelines in memory: the largest number needed at one time, and a few more.
     std::size_t capacity() const { return timelines_.size(); }
 
 private:

@@ -25,7 +25,7 @@ std::size_t WatchZones::zones_needed() const {
         return 1;
     }
     if (zones_.back().min_w * static_cast<double>(others_ + 1) >= level_w_) {
-        return zones_.size() + 1;  // unknown with this few zones
+        return zones_.size() + 1;  // not known: there are too few zones
     }
     // The first zone is always watched, and a watched zone stays watched.
     const std::size_t min_needed = std::max<std::size_t>(zones_watched_, 1);

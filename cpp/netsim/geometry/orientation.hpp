@@ -1,5 +1,5 @@
-// The orientation of a body: a rotation from its own frame to the scene's. Used for nodes and
-// antennas.
+// The orientation of a body: a rotation from its own coordinate frame to the scene's. Used for nodes
+// and antennas.
 //
 // The angles are INET's heading, elevation and bank (OMNeT++'s INET framework, MobilityBase).
 // Without rotation, a body faces along x with z up. It is rotated about z by the heading (x towards
@@ -25,8 +25,8 @@ public:
     constexpr Orientation() = default;
     explicit Orientation(const EulerAngles& angles);
 
-    // Faces along `direction`, of any length but 0, without bank. Straight up and down, the heading
-    // is 0.
+    // Faces along `direction`, of any length > 0, without bank. For straight up and down, the
+    // heading is 0.
     static Orientation facing(const Position& direction);
 
     Position to_scene(const Position& own) const { return own.x * x_ + own.y * y_ + own.z * z_; }

@@ -5,8 +5,7 @@
 
 namespace netsim {
 
-// The border of the scene. Beyond it, propagation would take longer than a node remembers its past
-// positions.
+// The border of the scene. Beyond it, the propagation delay could exceed Trajectory::memory.
 inline constexpr double largest_coordinate_m = 1e7;
 
 struct Position {
@@ -34,13 +33,13 @@ constexpr double dot_product(const Position& a, const Position& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// In m². Cheaper than distance, and enough for comparisons and for path loss.
+// In m². Cheaper than distance, and sufficient for comparisons and for path loss.
 constexpr double squared_distance(const Position& a, const Position& b) {
     const Position d = a - b;
     return d.x * d.x + d.y * d.y + d.z * d.z;
 }
 
-// Three finite numbers within the scene.
+// Whether all coordinates are finite and within the scene.
 inline bool is_in_scene(const Position& p) {
     const auto is_inside = [](double coordinate) { return std::abs(coordinate) <= largest_coordinate_m; };
     return is_inside(p.x) && is_inside(p.y) && is_inside(p.z);

@@ -80,8 +80,8 @@ void Prism::cross(const Position& a, const Position& b, Crossing& crossing) cons
         return;
     }
     cross_walls(a, b, crossing);
-    // A part is inside if it is inside on both shifted lines; a part inside on one only runs along
-    // a wall. On each line, walls come in pairs.
+    // A part is inside if it is inside on both shifted lines. A part that is inside on only one of
+    // them runs along a wall. On each line, walls come in pairs.
     const auto& left = crossing.left_;
     const auto& right = crossing.right_;
     for (std::size_t l = 0, r = 0; l + 1 < left.size() && r + 1 < right.size();) {

@@ -1,5 +1,4 @@
-// A body with vertical walls, a level floor and a level roof: a building, as far as radio waves are
-// concerned.
+// A body with vertical walls, a level floor and a level roof: the model of a building.
 //
 // Its footprint consists of closed rings, in either direction. A ring within another is a courtyard
 // (even-odd rule). Used by the obstacles to find the parts of a segment that are inside.
@@ -41,7 +40,7 @@ private:
     friend class Prism;
 
     struct Vertex {
-        double along;   // as a share of the segment
+        double along;   // as a fraction of the segment
         double side_m;  // signed distance from its line in the plane
     };
     struct Wall {
@@ -66,7 +65,7 @@ public:
     // Finds the stretches of the segment from `a` to `b` that are inside, by distance from `a`.
     void cross(const Position& a, const Position& b, Crossing& crossing) const;
 
-    // Corners of the box around it.
+    // Corners of its bounding box.
     Position lowest() const { return lowest_; }
     Position highest() const { return highest_; }
 

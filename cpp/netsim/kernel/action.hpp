@@ -1,8 +1,8 @@
 // What an event does when it is due: a callable without arguments, stored in place.
 //
-// Millions of events are created and dropped, so an Action never allocates. It takes trivially
-// copyable callables of at most 32 bytes: a lambda that captures a few pointers and numbers. The
-// compiler checks that.
+// Millions of events are created and dropped, so an Action never allocates memory. It takes
+// trivially copyable callables of at most 32 bytes, such as a lambda that captures a few pointers
+// and numbers. The compiler checks that.
 //
 // A callable may also have a member `prefetch(int step) const` (kernel/prefetch.hpp). It is called
 // shortly before the event is due, for the steps 0 to prefetch_steps - 1; sometimes twice,
@@ -23,12 +23,12 @@ public:
 
     template <typename Callable>
         requires(!std::is_same_v<std::decay_t<Callable>, Action>)
-    // NOLINTNEXTLINE(google-explicit-constructor): a lambda is meant to become an Action silently
+    // NOLINTNEXTLINE(google-explicit-constructor): lambdas convert to an Action implicitly
     Action(const Callable& callable) {
         *this = callable;
     }
-    // Stores the captures and nothing else. Copying a new Action would copy its unused bytes, too,
-    // and stall until its recent writes have reached memory.
+    // Stores only the captures. Copying a new Action would also copy its unused bytes, and stall
+    // until its recent writes have reached memory.
     template <typename Callable>
         requires(!std::is_same_v<std::decay_t<Callable>, Action>)
     Action& operator=(const Callable& callable) {

@@ -9,7 +9,7 @@ namespace netsim {
 
 namespace {
 
-// With this many events, later ones go to the overflow buckets.
+// The overflow buckets are used from this number of events on.
 constexpr std::size_t large_heap = 512;
 
 }  // namespace

@@ -1,12 +1,12 @@
 // The pending events of one simulation, in the order in which they will run.
 //
-// The order is a contract: by time, then by priority, then by sequence number, the order of
-// scheduling. Sequence numbers can be reserved for events that are scheduled later. Small keys are
-// in a binary heap, actions in a pool beside it. An event that was taken out leaves a gap at the
-// top of the heap, which the next scheduled event fills, since most events schedule a successor.
-// With many events, only those due soon are in the heap (overflow_buckets.hpp has the others).
-// Canceling marks the slot in the pool. A dead key is dropped at the top of the heap, or all dead
-// keys together once they outnumber the others.
+// The order is a contract: by time, then by priority, then by sequence number, which follows the
+// order of scheduling. Sequence numbers can be reserved for events that are scheduled later. Small
+// keys are in a binary heap, and actions in a separate pool. A popped event leaves a gap at the top
+// of the heap, which the next scheduled event fills, since most events schedule a successor. With
+// many events, only those due soon are in the heap (overflow_buckets.hpp has the others). Canceling
+// an event frees its slot in the pool. Its key, now dead, is dropped when it reaches the top of the
+// heap. All dead keys are dropped together once they outnumber the others.
 #pragma once
 
 #include <algorithm>
@@ -55,12 +55,12 @@ public:
         return insert(time, priority, number, slot);
     }
 
-    // True if the event was pending. Amortized O(1).
+    // Returns whether the event was pending. Amortized O(1).
     bool cancel(EventHandle handle);
     bool is_pending(EventHandle handle) const;
 
-    // Whether a normal event of that time and number would be the next one. May be false although
-    // it would.
+    // Whether a normal event of that time and number would be the next one. A conservative test:
+    // true is certain, false is not.
     bool would_be_next(SimTime time, SequenceNumber number) const {
         const EventKey key{time.ps(), number, 0, 0};
         const std::size_t first =
@@ -76,13 +76,13 @@ public:
 
     // Time of the next event. Only when not empty.
     SimTime next_time();
-    // When the next event runs, all normal events of its time with lower numbers have run. Call it
-    // after next_time.
+    // When the next event runs, all normal events of its time with lower numbers than this have run.
+    // Call it after next_time.
     SequenceNumber next_sequence_number() const {
         const std::uint64_t order = heap_.front().order;
         return order < last_of_instant ? order : next_sequence_number_;
     }
-    // Events scheduled or reserved from now on have that number or a higher one.
+    // Events scheduled or reserved from now on have this number or a higher one.
     SequenceNumber unused_sequence_number() const { return next_sequence_number_; }
     // Takes the next event out of the queue. Only when not empty.
     Action pop();

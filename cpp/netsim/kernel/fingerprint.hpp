@@ -1,8 +1,8 @@
-// A running 64-bit hash of a run: two runs with equal fingerprints took the same course.
+// A running 64-bit hash of a run: runs with equal fingerprints had the same observable events.
 //
-// Its input is what a user can observe: frames on the air, their receptions, and what reached a
-// protocol. Internal events of the engine are not part of it, so a faster engine keeps the
-// fingerprint.
+// It covers what a user can observe: frames on the air, their receptions, and the events of
+// protocols. Internal events of the engine are not part of it, so optimizing the engine does not
+// change it.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ public:
     std::uint64_t value() const { return hash_; }
 
 private:
-    // Compilers turn it into one load if `count` is a constant.
+    // Little-endian. Compilers turn it into one load if `count` is a constant.
     static std::uint64_t word_of(std::string_view text, std::size_t from, std::size_t count) {
         std::uint64_t word = 0;
         for (std::size_t i = 0; i < count; ++i) {

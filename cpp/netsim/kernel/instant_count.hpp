@@ -1,8 +1,8 @@
 // Detects endless loops within one instant, in which simulated time stands still.
 //
-// Timers set for now again and again, or messages without delay that answer each other, would hang
-// the run without a message. Code that schedules for now on behalf of a protocol counts, and
-// rejects too many.
+// Timers that are set for the current time again and again, or replies without delay to replies
+// without delay, would hang the run silently. So code that schedules for the current time on behalf
+// of a protocol counts, and throws an error above the limit.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ inline constexpr std::int32_t max_per_instant = 1'000'000;
 
 class InstantCount {
 public:
-    // Counts one more. True if they are too many.
+    // Counts one action. Returns whether the limit is exceeded.
     bool exceeds(SimTime now) {
         if (now != instant_) {
             instant_ = now;

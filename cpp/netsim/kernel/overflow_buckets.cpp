@@ -24,15 +24,15 @@ void OverflowBuckets::open_next(std::vector<EventKey>& keys) {
     while (buckets_[opened_].empty()) {
         ++opened_;
     }
-    // Frees its memory: shortly before it is opened, a bucket takes the events that are due at
-    // once, more than the others ever hold.
+    // Frees the memory of the bucket. The bucket to be opened next collects most new events, so
+    // every bucket would keep the capacity for that.
     const std::vector<EventKey> bucket = std::exchange(buckets_[opened_++], {});
     keys.insert(keys.end(), bucket.begin(), bucket.end());
     size_ -= bucket.size();
 }
 
-// Half of the events go to the first half of the buckets. The others may be much later, and wait.
-// Each event is visited twice on average, however the times are distributed.
+// Half of the events go to the first half of the buckets. The others may be much later; those past
+// the last bucket wait. For any distribution of times, each event is visited twice on average.
 void OverflowBuckets::rebuild() {
     NETSIM_ASSERT(!beyond_.empty());
     opened_ = 0;

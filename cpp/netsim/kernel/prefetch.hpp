@@ -1,10 +1,9 @@
-// Prefetching: loads memory into the cache that an event will read soon. The only place of the
+// Prefetching: loads memory that an event will read soon into the cache. The only place in the
 // engine that issues prefetch instructions. It changes the run time and nothing else.
 //
-// Why. In a large network, the state that one event reads was evicted from the cache by the other
-// nodes since its last use. A cache miss costs as much as a hundred instructions, and a delivered
-// frame had nine of them with 10,000 nodes.
-// docs/performance.md has the measurements.
+// Why. In a large network, the other nodes have evicted the state that an event reads from the cache
+// since its last use. A cache miss costs as much as a hundred instructions. Without prefetching, a
+// delivered frame had nine of them with 10,000 nodes. docs/performance.md has the measurements.
 //
 // How. Two kinds of events are known well before they run:
 //
@@ -21,13 +20,13 @@
 //
 // Steps. The target of a pointer can be prefetched only after the pointer itself has arrived. So
 // events of a bucket are prefetched in steps: step 0 for all of them, then step 1 for all, and so
-// on. A step may read only memory that an earlier step prefetched. An object takes part by a member
-// `void prefetch(int step) const` (concept Prefetchable).
+// on. A step may read only memory that an earlier step prefetched. To take part, an object has a
+// member `void prefetch(int step) const` (concept Prefetchable).
 //
 // Rules. Put the members that every frame reads first in their object, in one cache line, and
 // prefetch those lines only. A processor drops requests beyond about twenty outstanding ones, so
-// prefetch nothing that may not be needed. Measure with `make bench` before and after: a prefetch
-// that gains nothing is removed.
+// prefetch only what will be needed. Measure with `make bench` before and after, and remove a
+// prefetch that gains nothing.
 #pragma once
 
 #include <cstddef>

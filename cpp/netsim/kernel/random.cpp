@@ -10,7 +10,7 @@ std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key) {
     constexpr std::uint64_t multiplier_0 = 0xD2511F53;
     constexpr std::uint64_t multiplier_1 = 0xCD9E8D57;
-    constexpr std::uint32_t weyl_0 = 0x9E3779B9;  // golden ratio
+    constexpr std::uint32_t weyl_0 = 0x9E3779B9;  // golden ratio − 1
     constexpr std::uint32_t weyl_1 = 0xBB67AE85;  // sqrt(3) − 1
     for (int round = 0; round < 10; ++round) {
         const std::uint64_t product_0 = multiplier_0 * counter[0];

@@ -1,8 +1,8 @@
 // Named random streams from a counter-based generator.
 //
 // A stream is named by (seed of the run, node, purpose). The name is part of the generator's key
-// and counter, so streams never overlap, and a tenth node leaves the draws of the first nine
-// unchanged. Distributions are our own, so that results agree on every platform.
+// and counter, so streams never overlap, and a tenth node does not change the draws of the first
+// nine. The engine has its own distributions, so that results are equal on every platform.
 //
 // Source: J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as
 // 1, 2, 3", SC 2011.
@@ -13,8 +13,8 @@
 
 namespace netsim {
 
-// What a stream is drawn for. The numbers are part of every result: never change one, only add. The
-// numbers that Python uses are also in gradysim.encapsulator.random_stream.
+// What a stream is used for. Results depend on these values: never change one, only add. The values
+// that Python uses are also in gradysim.encapsulator.random_stream.
 enum class Purpose : std::uint32_t {
     backoff = 1,
     reception = 2,
@@ -57,8 +57,8 @@ private:
 
     std::array<std::uint32_t, words_of_block> block(std::uint64_t number) const;
 
-    // Each draw computes its block again. Every node has several streams, so keeping the blocks
-    // would cost more in a large network.
+    // Each draw recomputes its block. Every node has several streams, so storing the blocks would
+    // cost more in a large network.
     std::array<std::uint32_t, 2> key_;
     std::uint32_t node_;
     Purpose purpose_;

@@ -1,7 +1,7 @@
 // Simulated time: a signed 64-bit count of picoseconds (about ±106 days).
 //
 // An integer, so that sums are exact and equal instants compare equal. A strong type, so that
-// seconds and picoseconds cannot be mixed up. Float seconds exist only at the border to the user
+// seconds and picoseconds cannot be mixed up. Floating-point seconds exist only at the user interface
 // (from_seconds, seconds).
 #pragma once
 
@@ -13,8 +13,8 @@ namespace netsim {
 
 class SimTime {
 public:
-    // The end of the longest run. The range of int64 ends at 9.223e6 s, later than any frame that
-    // begins in time. `sim-time-limit` in python/gradysim/scenario/schema.py has the same
+    // The end of the longest run. The range of int64 ends at 9.223e6 s, after the end of any frame
+    // that begins within a run. `sim-time-limit` in python/gradysim/scenario/schema.py has the same
     // bound.
     static constexpr double longest_run_s = 9.2e6;
 
@@ -23,7 +23,7 @@ public:
     static constexpr SimTime from_ps(std::int64_t picoseconds) { return SimTime(picoseconds); }
     static constexpr SimTime from_ns(std::int64_t nanoseconds) { return SimTime(nanoseconds * 1'000); }
     static constexpr SimTime from_us(std::int64_t microseconds) { return SimTime(microseconds * 1'000'000); }
-    // Rounds to the nearest picosecond. Throws SimulationError for NaN and out of range.
+    // Rounds to the nearest picosecond. Throws SimulationError for NaN and beyond ±longest_run_s.
     static SimTime from_seconds(double seconds) {
         const bool is_representable = seconds >= -longest_run_s && seconds <= longest_run_s;  // NaN is not
         if (!is_representable) {
@@ -34,14 +34,14 @@ public:
         const double rest_ps = exact_ps - static_cast<double>(whole_ps);
         return SimTime(whole_ps + static_cast<int>(rest_ps >= 0.5) - static_cast<int>(rest_ps <= -0.5));
     }
-    // The same for the time of an event. From the end of the longest run on, it is never().
+    // The same for the time of an event. Finite times after the end of the longest run give never().
     static SimTime of_event(double seconds) {
         const bool is_too_late = seconds > longest_run_s && seconds <= std::numeric_limits<double>::max();
         return is_too_late ? never() : from_seconds(seconds);
     }
     // The same for a time computed from now().seconds(): the result is not before `now` if
-    // `seconds` is not. From 8192 s on, float seconds are more than a picosecond apart, and may
-    // round to before the instant.
+    // `seconds` is not. From 8192 s on, adjacent doubles are more than a picosecond apart, so that
+    // now().seconds() may be before `now`.
     static SimTime of_event(double seconds, SimTime now) {
         const SimTime event = of_event(seconds);
         return seconds >= now.seconds() && event < now ? now : event;
@@ -49,7 +49,7 @@ public:
     // An instant that no run reaches.
     static constexpr SimTime never() { return from_us(9'210'000'000'000); }
     static constexpr SimTime max() { return SimTime(std::numeric_limits<std::int64_t>::max()); }
-    // Before any run. Differences with any instant of a run do not overflow.
+    // Before any run. The difference to any instant of a run does not overflow.
     static constexpr SimTime long_ago() { return SimTime(std::numeric_limits<std::int64_t>::min() / 4); }
 
     constexpr std::int64_t ps() const { return ps_; }

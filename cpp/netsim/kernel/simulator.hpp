@@ -1,7 +1,7 @@
-// The clock and the event loop under all layers.
+// The clock and the event loop below all layers.
 //
-// It does not know networks: it runs actions in the order of the EventQueue and keeps the time. An
-// exception thrown by an action leaves `run_until`. The simulator stays usable: the failed event is
+// It runs actions in the order of the EventQueue and knows nothing about networks. An exception
+// thrown by an action propagates out of `run_until`. The simulator stays usable: the failed event is
 // gone, and the clock is at its time.
 #pragma once
 
@@ -40,9 +40,9 @@ public:
         NETSIM_ASSERT(time >= now_);
         return queue_.push_reserved(time, Priority::normal, number, action);
     }
-    // Runs the successor of the current event without the queue, if it would be the next event
-    // anyway. True if so: the clock is at its time, and the caller performs it. If false, the
-    // caller schedules it. `number` is reserved.
+    // Advances to the successor of the current event without the queue, if it would be the next
+    // event anyway. If true, the clock is at its time, and the caller runs it. If false, the caller
+    // schedules it. `number`: its reserved sequence number.
     bool try_run_inline(SimTime time, SequenceNumber number) {
         if (time > limit_ || budget_ == 0 || !queue_.would_be_next(time, number)) {
             return false;
@@ -60,11 +60,11 @@ public:
     bool cancel(EventHandle handle) { return queue_.cancel(handle); }
     bool is_pending(EventHandle handle) const { return queue_.is_pending(handle); }
 
-    // Runs the events up to and including `limit`, then sets the clock to it. Returns false, with
-    // the clock at the last event, if `max_events` ran before that.
+    // Runs the events up to and including `limit`, then sets the clock to `limit`. Returns false,
+    // with the clock at the last event, if `max_events` events ran before that.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0});
-    // Runs one event, if there is one up to and including `limit`. Otherwise returns false; the
-    // clock stays.
+    // Runs one event, if there is one up to and including `limit`. Otherwise returns false and leaves
+    // the clock unchanged.
     bool step(SimTime limit);
 
 private:
@@ -74,8 +74,8 @@ private:
     SimTime now_;
     SequenceNumber sequence_number_ = 0;  // events of this instant with lower numbers have run
     std::uint64_t event_count_ = 0;
-    SimTime limit_;             // of the run
-    std::uint64_t budget_ = 0;  // events left in it
+    SimTime limit_;             // of run_until
+    std::uint64_t budget_ = 0;  // events that run_until may still run
 };
 
 }  // namespace netsim
