@@ -2,8 +2,8 @@
 // engine that issues prefetch instructions. It changes the run time and nothing else.
 //
 // Why. In a large network, the other nodes have evicted the state that an event reads from the cache
-// since its last use. A cache miss costs as much as a hundred instructions. Without prefetching, a
-// delivered frame had nine of them with 10,000 nodes. docs/performance.md has the measurements.
+// since its last use. A cache miss costs as much as a hundred instructions. Before these measures,
+// a delivered frame had nine of them with 10,000 nodes. docs/performance.md has the measurements.
 //
 // How. Two kinds of events are known well before they run:
 //

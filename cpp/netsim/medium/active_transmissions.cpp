@@ -54,7 +54,7 @@ void ActiveTransmissions::forget_ended(SimTime now, SimTime remembered) {
 
 void ActiveTransmissions::find_concurrent(const ActiveTransmission& newest,
                                           std::vector<ActiveTransmission*>& concurrent) const {
-    // Branch-free: which of them are over is unpredictable for the processor.
+    // Branch-free: the processor cannot predict which of them have ended.
     concurrent.resize(entries_.size());
     std::size_t count = 0;
     for (const std::unique_ptr<ActiveTransmission>& other : entries_) {

@@ -1,7 +1,7 @@
-// The transmissions on the air, those that ended so recently that they can still matter, and what
-// arrives of them at each radio.
+// The transmissions on the air, those that ended so recently that they can still matter, and their
+// arrivals at each radio.
 //
-// Each transmission has an entry, in the order of their starts. The medium and the cumulative
+// There is one entry per transmission, in the order of their starts. The medium and the cumulative
 // energy detection keep their own state of a transmission in its entry.
 #pragma once
 
@@ -22,11 +22,11 @@
 
 namespace netsim {
 
-// An arrival that a radio notices by itself, known when the transmission begins. The radio is
-// notified of its start and of its end, in order with the other receivers
-// (ActiveTransmission::notified counts them). An arrival that a radio notices only later, together
-// with others, is in `late_arrivals`. All other radios are never notified: there, the transmission
-// is energy and interference, summed on demand.
+// An arrival that its radio notices, as is known when the transmission begins. The radio is notified
+// of the start and the end, in order with the other receivers (ActiveTransmission::notified counts
+// them). An arrival that becomes noticeable later, together with others, is in `late_arrivals`. All
+// other radios are never notified: there, the transmission counts as energy and interference, summed
+// on demand.
 struct ScheduledArrival {
     SimTime start;
     double power_w = 0;
@@ -44,23 +44,23 @@ struct alignas(64) ActiveTransmission {
         return first_sequence_number + 2 * static_cast<SequenceNumber>(radio) + edge;
     }
 
-    SimTime last_end;           // at its most distant receiver, or later
+    SimTime last_end;           // its end at the most distant receiver, or later
     double displacement_m = 0;  // DisplacementBound::total_m at its start
     double zone_radius_m = 0;   // no radio farther away is in one of its watch zones
     Transmission transmission;
     SequenceNumber first_sequence_number = 0;  // two for each radio: start and end of the arrival
     double reach_m = 0;                        // no radio farther away locks on to it
-    bool arrives_immediately = false;          // at a radio that notices it
+    bool arrives_immediately = false;          // without delay at some radio
     double max_interference_w = 0;             // bound for all concurrent transmissions, within reach_m
-    // Concurrent transmissions for which that bound is too loose at single receivers,
+    // Concurrent transmissions for which that bound is too loose at single receivers.
     std::vector<const ActiveTransmission*> close_interferers;
-    double max_far_interference_w = 0;        // and a bound for all the others.
+    double max_far_interference_w = 0;        // bound for all others, within reach_m
     std::vector<ScheduledArrival> scheduled;  // known at the start; in the order of their events
     bool arrivals_are_scheduled = false;      // later arrivals go to `late_arrivals`
     std::vector<Position> places;             // of the receivers in `scheduled`, at the start
     std::array<std::size_t, 2> notified{};    // [edge]: how many of `scheduled` were notified
     std::vector<Arrival> late_arrivals;
-    std::vector<double> shares;     // [group]: share of the power in the group's band
+    std::vector<double> shares;     // [group]: fraction of the power in the group's band
     std::vector<WatchZones> zones;  // [group]
 };
 
@@ -69,23 +69,23 @@ public:
     explicit ActiveTransmissions(const Links& links) : links_(links) {}
 
     // Adds a transmission that begins now, at the sender's position. Fills in its id, start and
-    // origin. `first_sequence_number` is that of its arrivals' events.
+    // origin. `first_sequence_number`: the first one of the events of its arrivals.
     ActiveTransmission& put(Transmission transmission, SimTime now, SequenceNumber first_sequence_number);
-    // Drops those that ended more than `remembered` ago, unless a transmission on the air began
-    // before their end.
+    // Drops transmissions that ended more than `remembered` ago, unless one that is still on the air
+    // began before their end.
     void forget_ended(SimTime now, SimTime remembered);
 
     bool empty() const { return entries_.empty(); }
     std::size_t size() const { return entries_.size(); }
-    // By start.
+    // In the order of starts.
     const std::vector<std::unique_ptr<ActiveTransmission>>& entries() const { return entries_; }
     // Ids count up from 0 in the order of starts. The entries have the ids from first_id() to
     // next_id() - 1.
     std::uint64_t first_id() const { return entries_.front()->transmission.id(); }
     std::uint64_t next_id() const { return next_id_; }
     ActiveTransmission& of_id(std::uint64_t id) const { return *entries_[id - first_id()]; }
-    // Writes to `concurrent` those that began before `newest` and are not over everywhere when it
-    // begins.
+    // Writes to `concurrent` the transmissions that began before `newest` and have not ended at
+    // every receiver when it begins.
     void find_concurrent(const ActiveTransmission& newest,
                          std::vector<ActiveTransmission*>& concurrent) const;
 
@@ -109,9 +109,9 @@ public:
     double share_at(const ActiveTransmission& active, RadioId radio) const {
         return active.shares[links_.group_of(radio)];
     }
-    // Return a function of a radius in m: an upper bound, in W, for the power of `there` at all
-    // receivers within that radius of the origin of `here`, when `here` began. `max_sent_w` bounds
-    // the sent power, antennas included.
+    // Returns a function of a radius in m: an upper bound in W for the power of `there` at all
+    // receivers within that radius around the origin of `here`. `max_sent_w` is a bound for the sent
+    // power, including antenna gains.
     auto max_received_w(const ActiveTransmission& there, const ActiveTransmission& here,
                         double max_sent_w) const {
         const double moved_m = std::abs(there.displacement_m - here.displacement_m);
@@ -124,7 +124,7 @@ public:
     }
 
 private:
-    // With the radio at `place` when the transmission starts.
+    // `place`: the radio's position when the transmission starts.
     Arrival arrival_at_place(const ActiveTransmission& active, RadioId radio, const Position& place) const {
         Arrival arrival = links_.arrival(active.transmission, share_at(active, radio), radio, place);
         arrival.active = &active;

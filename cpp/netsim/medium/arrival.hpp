@@ -1,4 +1,4 @@
-// A transmission as one receiver gets it.
+// The arrival of a transmission at one receiver.
 #pragma once
 
 #include "netsim/geometry/position.hpp"
@@ -14,8 +14,9 @@ struct Arrival {
     SimTime start;
     SimTime end;
     double power_w = 0;
-    Position place{};       // of the receiver, when the transmission started
-    bool lockable = false;  // strong enough for the receiver, on its channel and in a format that it knows
+    Position place{};  // of the receiver, when the transmission started
+    bool lockable =
+        false;  // reaches the receiver's sensitivity, in its channel and a format that it knows
     const ActiveTransmission* active = nullptr;  // the medium's state of the transmission; opaque to radios
 };
 

@@ -1,4 +1,4 @@
-// The noise in a receiver's band when no radio sends. Radios use it for their SNIR, the medium for
+// The noise in a receiver's band when no radio transmits. Radios use it for the SNIR, the medium for
 // energy detection.
 //
 //   IsotropicScalarBackgroundNoise: one power, MediumConfig::background_noise_w, for every receiver whatever its
@@ -16,7 +16,7 @@ class BackgroundNoise {
 public:
     explicit BackgroundNoise(const MediumConfig& config);
 
-    // In W, at a receiver of that bandwidth. `noise_figure`: a linear ratio ≥ 1, used for thermal
+    // In W, at a receiver with that bandwidth. `noise_figure`: a linear ratio ≥ 1, used for thermal
     // noise only.
     double power_w(double bandwidth_hz, double noise_figure) const {
         return power_w_ + density_w_per_hz_ * bandwidth_hz * noise_figure;

@@ -1,12 +1,11 @@
-// Each transmission has watch zones in each group of receivers. At each watched receiver, while the
-// transmission lasts there, one of two things holds at any moment: the radio was notified of enough
-// arrivals to find its channel busy, or the energy stays below its ED threshold, with the known
-// headroom. Where bounds do not show the headroom, the sum of the powers does
-// (energy_timeline.hpp).
+// Each transmission has watch zones in each group of receivers. While the transmission lasts at a
+// watched receiver, one of two conditions holds at any time: the radio was notified of enough
+// arrivals to find its channel busy, or the energy is below its ED threshold by at least the known
+// headroom. If bounds cannot show the headroom, the sum of the powers does (energy_timeline.hpp).
 //
 // The evaluation of a radio is deferred while nothing depends on it: until the reported arrivals no
-// longer suffice, or the next frame arrives. By then more frames are known, or the radio sends
-// itself.
+// longer suffice, or the next frame arrives. By then, more frames are known, or the radio is
+// transmitting.
 #include "netsim/medium/cumulative_energy_detection.hpp"
 
 #include <algorithm>
@@ -42,9 +41,9 @@ void CumulativeEnergyDetection::evaluate(ActiveTransmission& newest,
 }
 
 // Many transmissions may start at one instant, such as those of stations whose slots end together.
-// Most of the watching radios will transmit by its end, too, and need no evaluation. So all but the
-// first few transmissions are evaluated at the end of the instant. They arrive after it, except at
-// a radio in the same place.
+// By the end of the instant, most of the watching radios transmit, too, and need no evaluation. So
+// all but the first few transmissions are evaluated at the end of the instant. They arrive later,
+// except at a radio at the same position.
 void CumulativeEnergyDetection::add(ActiveTransmission& newest,
                                     const std::vector<ActiveTransmission*>& concurrent) {
     constexpr std::size_t few = 4;
@@ -105,7 +104,7 @@ void CumulativeEnergyDetection::add_to_zones(ActiveTransmission& here, const Act
             watched.headroom_w -= max_w;
             continue;
         }
-        // The bound does not suffice; the power may.
+        // The bound is too loose; the exact power may be small enough.
         if (!timelines_.has(watched.radio)) {
             watched.headroom_w -= power_at(there, watched.radio, watched.place);
             if (watched.headroom_w > 0) {
@@ -151,7 +150,7 @@ void CumulativeEnergyDetection::widen_zones(ActiveTransmission& here, const Acti
         const double max_sent_w = links_.max_power_w(other.transmission, group);
         bounds_.push_back({&other, active_transmissions_.max_received_w(other, here, max_sent_w)(radius_m)});
     });
-    // The largest bounds are those of the nearest transmissions, and the loosest.
+    // The largest bounds belong to the nearest transmissions, and are the loosest.
     std::ranges::sort(bounds_, std::greater(), &Bound::max_w);
     double rest_w = 0;
     std::for_each(bounds_.rbegin(), bounds_.rend(),
@@ -176,7 +175,7 @@ void CumulativeEnergyDetection::widen_zones(ActiveTransmission& here, const Acti
     }
 }
 
-// Replaces bounds by powers, one after the other, until there is headroom.
+// Replaces bounds by exact powers, one after the other, until there is headroom.
 double CumulativeEnergyDetection::headroom_by_bounds(RadioId radio, const Position& place,
                                                      double received_w) {
     if (!timelines_.has(radio)) {
@@ -224,8 +223,7 @@ double CumulativeEnergyDetection::headroom_at(RadioId radio, const Position& pla
     state.headroom_w = state.timeline.report_missing(
         links_.receiver(radio).energy_detection_w, [&](const EnergyTimeline::Signal& signal) {
             ActiveTransmission& other = active_transmissions_.of_id(signal.transmission);
-            // For a moving radio, the place is approximate. Only arrivals that can be locked on to
-            // use it.
+            // For a moving radio, `place` is approximate. Only lockable arrivals use it.
             listener_.arrival_needed(
                 radio, other,
                 Arrival{&other.transmission, signal.start, signal.end, signal.power_w, place, false, &other});
@@ -270,7 +268,7 @@ SimTime CumulativeEnergyDetection::watch(RadioId radio, SimTime since) {
     }
     const Position place = links_.position(radio, simulator_.now());
     if (!may_be_in_watch_zone(place, since)) {
-        return SimTime::long_ago();  // the usual case: the transmissions are far away
+        return SimTime::long_ago();  // usually, all transmissions are far away
     }
     const double max_w = find_recent(radio, place, since);
     if (std::ranges::none_of(recent_, &RecentSignal::is_in_watch_zone)) {
@@ -282,30 +280,30 @@ SimTime CumulativeEnergyDetection::watch(RadioId radio, SimTime since) {
     return over;
 }
 
-// Whether a radio now at `place` may have been in a watch zone since then. Outside of all zones,
-// several transmissions never made its channel busy together.
+// Whether a radio now at `place` may have been in a watch zone after `since`. Outside all zones,
+// several transmissions cannot make its channel busy together.
 bool CumulativeEnergyDetection::may_be_in_watch_zone(const Position& place, SimTime since) const {
     const double displacement_m = links_.displacement().total_m(simulator_.now());
-    // Branch-free: which of them are over is unpredictable for the processor.
-    int ring_count = 0;
+    // Branch-free: the processor cannot predict which of them have ended.
+    int zone_count = 0;
     for (const std::unique_ptr<ActiveTransmission>& active : active_transmissions_.entries()) {
         const double within_m =
             (active->zone_radius_m + (displacement_m - active->displacement_m)) * (1 + rounding_margin);
         const double squared_m2 = squared_distance(active->transmission.origin, place);
-        ring_count +=
+        zone_count +=
             static_cast<int>(active->last_end > since) & static_cast<int>(squared_m2 <= within_m * within_m);
     }
-    return ring_count > 0;
+    return zone_count > 0;
 }
 
-// Fills `recent_`. Returns an upper bound for their sum at any time.
+// Fills `recent_` with the signals after `since`. Returns an upper bound for their sum at any time.
 double CumulativeEnergyDetection::find_recent(RadioId radio, const Position& place, SimTime since) {
     const std::uint32_t group = links_.group_of(radio);
-    // A signal this strong suffices alone. Larger terms would round away the others when subtracted
-    // again.
+    // A signal of this power makes the channel busy alone. Larger terms would lose the others to
+    // rounding when they are subtracted again.
     const double enough_w = links_.receiver(radio).energy_detection_w;
     recent_.clear();
-    std::size_t first = 0;  // of those that may overlap with the current one
+    std::size_t first = 0;  // in recent_: the first signal that may overlap with the current one
     double sum_w = 0;
     double max_w = 0;
     for (const std::unique_ptr<ActiveTransmission>& active : active_transmissions_.entries()) {
@@ -324,13 +322,13 @@ double CumulativeEnergyDetection::find_recent(RadioId radio, const Position& pla
     return max_w;
 }
 
-// Adds the radio to the watch zones that contain it, of the transmissions in `recent_` that are
-// still on the air.
+// Adds the radio to the watch zones that contain it. Only transmissions in `recent_` that are still
+// on the air count.
 void CumulativeEnergyDetection::watch_recent(RadioId radio, const Position& place) {
     const SimTime now = simulator_.now();
     const ReceiverParameters& here = links_.receiver(radio);
     const std::uint32_t group = links_.group_of(radio);
-    // Drop those that are over everywhere, and strong ones that are over here.
+    // Drop signals that have ended at all receivers, and those in a watch zone that have ended here.
     std::erase_if(recent_, [&](const RecentSignal& recent) {
         return recent.active->last_end <= now ||
                (recent.is_in_watch_zone &&
@@ -353,8 +351,8 @@ void CumulativeEnergyDetection::watch_recent(RadioId radio, const Position& plac
     }
 }
 
-// Like headroom_at, but deferred if it depends on several signals in `recent_` that have not
-// arrived yet.
+// Like headroom_at, but the evaluation is deferred if several signals in `recent_` have not arrived
+// yet and it depends on them.
 double CumulativeEnergyDetection::headroom_before_next(RadioId radio, const Position& place) {
     const SimTime now = simulator_.now();
     const ReceiverParameters& here = links_.receiver(radio);
@@ -387,7 +385,7 @@ double CumulativeEnergyDetection::headroom_before_next(RadioId radio, const Posi
     return headroom_at(radio, place);
 }
 
-// Sums in the order of the transmissions, as the radio does.
+// Sums powers in the order of the transmissions, as the radio does.
 SimTime CumulativeEnergyDetection::last_busy_end(RadioId radio, const Position& place, SimTime since) {
     const ReceiverParameters& here = links_.receiver(radio);
     const SimTime now = simulator_.now();

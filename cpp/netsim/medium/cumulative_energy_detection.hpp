@@ -3,7 +3,7 @@
 // channel take part. carrier_sense/README.md explains it with a drawing.
 //
 // The medium calls it for each transmission that starts while others are on the air, and notifies
-// the radios found.
+// the affected radios.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ namespace netsim {
 
 class CumulativeEnergyListener {
 public:
-    // The radio must be notified of that arrival, which it would not notice alone: at once, if it
-    // has begun.
+    // The radio must be notified of an arrival that it would not notice alone. If the arrival has
+    // begun, at once.
     virtual void arrival_needed(RadioId radio, ActiveTransmission& active, const Arrival& arrival) = 0;
 
 protected:
@@ -42,24 +42,24 @@ public:
 
     // Call it once for each radio added to `links`.
     void add_radio() { timelines_.add_radio(); }
-    // Begins the watch zones of a new transmission in the group of that index. The caller adds each
-    // receiver that gets the zones' min_power_w().
+    // Starts the watch zones of a new transmission in the group with that index. The caller adds
+    // each receiver that receives at least the zones' min_power_w().
     void begin_zones(ActiveTransmission& here, std::size_t index);
     // Evaluates the newest transmission with the concurrent ones: now, or at the end of this
     // instant.
     void add(ActiveTransmission& newest, const std::vector<ActiveTransmission*>& concurrent);
-    // The radio, which is marked as watching, takes part from now on. Returns what
-    // Medium::watch_energy returns.
+    // From now on, the radio takes part. It must be marked as watching. Returns the same as
+    // Medium::watch_energy.
     SimTime watch(RadioId radio, SimTime since);
     // How often the power of a transmission at a radio was computed.
     std::uint64_t evaluation_count() const { return evaluation_count_; }
 
 private:
-    // The most that a transmission can bring to any of the receivers to be watched.
+    // A bound for the power of a transmission at all receivers to be watched.
     struct Bound {
         const ActiveTransmission* from = nullptr;
         double max_w = 0;
-        double rest_w = 0;  // sum with the bounds after it
+        double rest_w = 0;  // sum of this bound and those after it
     };
     // A transmission that is or was on the air, at one receiver.
     struct RecentSignal {
@@ -75,22 +75,22 @@ private:
         bool begins = true;
     };
 
-    // Headroom that is not known: it must be computed again.
+    // Unknown headroom: it must be computed again.
     static constexpr double unknown_w = 0;
-    // Evaluating at least this many unreported frames is worth an event that defers it.
+    // The evaluation of at least this many unreported frames is worth an event to defer it.
     static constexpr std::size_t min_deferred = 4;
     static SimTime just_before(SimTime time) { return time - SimTime::from_ps(1); }
 
     void evaluate_started_now();
-    // Here and below, `concurrent` are the transmissions concurrent with the newest.
+    // `concurrent`, here and below: the transmissions concurrent with the newest one.
     void evaluate(ActiveTransmission& newest, const std::vector<ActiveTransmission*>& concurrent);
     void evaluate_group(ActiveTransmission& newest, const std::vector<ActiveTransmission*>& concurrent,
                         std::size_t group);
-    // Reduces the headroom of receivers in the watch zones of `here` by the power of `there`. One
-    // of the two is the newest.
+    // Reduces the headroom of receivers in the watch zones of `here` by the power of `there`. One of
+    // the two is the newest transmission.
     void add_to_zones(ActiveTransmission& here, const ActiveTransmission& there, std::size_t group);
-    // Recomputes the bounds of the others zone by zone, and watches the receivers in the zones
-    // added.
+    // Recomputes the bounds of the other transmissions zone by zone, and watches the receivers in
+    // the added zones.
     void widen_zones(ActiveTransmission& here, const ActiveTransmission& newest,
                      const std::vector<ActiveTransmission*>& concurrent, std::size_t index);
     double power_at(const ActiveTransmission& active, RadioId radio, const Position& place) {
@@ -99,15 +99,15 @@ private:
                    ? 0
                    : active_transmissions_.power_at(active, radio, place, simulator_.now());
     }
-    // Reports as many arrivals to the radio as it needs to find its channel busy when it is.
-    // Returns the headroom: how many W the sum may still rise before more must be reported. Not
-    // positive if unknown. The radio's timeline keeps the result, because the zones of several
-    // transmissions need it, and again for each new transmission.
+    // Reports enough arrivals to the radio for it to find its channel busy at the right times.
+    // Returns the headroom in W: how far the sum may still rise before more must be reported. Not
+    // positive if unknown. The radio's timeline stores the result, because the zones of several
+    // transmissions need it.
     double headroom_at(RadioId radio, const Position& place);
-    // The same at that time, if the radio watches then.
+    // Calls headroom_at at that time, if the radio watches then.
     void evaluate_at(RadioId radio, SimTime time);
-    // The headroom of a radio that gets `received_w` of one transmission, and at most `bounds_` of
-    // the others.
+    // The headroom of a radio that receives `received_w` from one transmission, and at most
+    // `bounds_` from the others.
     double headroom_by_bounds(RadioId radio, const Position& place, double received_w);
     // Whether the radio was, or would have been, notified of the arrival's end.
     bool has_ended(const ActiveTransmission& active, const Arrival& arrival, RadioId radio) const {
@@ -119,8 +119,8 @@ private:
     double find_recent(RadioId radio, const Position& place, SimTime since);
     void watch_recent(RadioId radio, const Position& place);
     double headroom_before_next(RadioId radio, const Position& place);
-    // When the signals in `recent_` last stopped exceeding the ED threshold after `since`, summed
-    // as the radio sums.
+    // When the sum of the signals in `recent_` last fell below the ED threshold after `since`. Long
+    // ago if it did not.
     SimTime last_busy_end(RadioId radio, const Position& place, SimTime since);
 
     Simulator& simulator_;
@@ -129,10 +129,10 @@ private:
     CumulativeEnergyListener& listener_;
     EnergyTimelinePool timelines_;
     std::vector<ActiveTransmission*> started_now_;  // not evaluated yet
-    bool evaluates_at_end_of_instant_ = false;      // those in started_now_
-    std::vector<ActiveTransmission*> concurrent_;   // with one of them
+    bool evaluates_at_end_of_instant_ = false;      // an event will evaluate started_now_
+    std::vector<ActiveTransmission*> concurrent_;   // with one in started_now_
     std::vector<Bound> bounds_;
-    std::vector<RecentSignal> recent_;  // by start
+    std::vector<RecentSignal> recent_;  // in the order of starts
     std::vector<Change> changes_;
     std::vector<const RecentSignal*> present_;
     std::uint64_t evaluation_count_ = 0;

@@ -6,9 +6,9 @@
 namespace netsim {
 namespace {
 
-// A sum from which terms are also subtracted. The rounding error is kept separately, so that a weak
-// frame is still exact after a strong one ended. A. Neumaier, "Rundungsfehleranalyse einiger
-// Verfahren zur Summation endlicher Summen", 1974.
+// A sum from which terms are also subtracted. The rounding error is stored separately, so that the
+// power of a weak frame is still exact after a strong one ended. A. Neumaier, "Rundungsfehleranalyse
+// einiger Verfahren zur Summation endlicher Summen", 1974.
 class CompensatedSum {
 public:
     void add(double term) {
@@ -82,9 +82,9 @@ SimTime InterferenceSum::find_worst_moment() {
     if (others_.size() == 1) {
         return std::max(others_.front().start, start_);
     }
-    find_moments();  // the worst moment is one of them: the sum falls where a frame ends
+    find_moments();  // one of them is the worst moment: the sum rises only where a frame starts
     const double max_w = std::ranges::max(moments_, {}, &Moment::sum_w).sum_w;
-    // Moments that differ by no more than rounding are compared by their exact sums.
+    // Moments whose sums differ only by rounding are compared by their exact sums.
     constexpr double nearly = 1 - 1e-9;
     std::erase_if(moments_, [max_w](const Moment& moment) { return moment.sum_w < max_w * nearly; });
     if (moments_.size() == 1) {

@@ -24,16 +24,15 @@ struct InterferenceStep {
 
 class InterferenceSum {
 public:
-    // Begins a new period, from `start` until just before `end`, without interference.
+    // Starts a new period, from `start` until just before `end`, without interference.
     void begin(SimTime start, SimTime end) {
         start_ = start;
         end_ = end;
         others_.clear();
         worst_moment_.reset();
     }
-    // Adds an interfering frame; one outside the period is ignored. Call it in the order of
-    // transmissions. Inline, so that the compiler drops the parts of an arrival that are not used
-    // here.
+    // Adds an interfering frame. Ignores a frame outside the period. Call it in the order of
+    // transmissions. Inline, so that the compiler does not compute unused parts of an arrival.
     void add(const Arrival& other) {
         if (other.start < end_ && other.end > start_ && other.power_w > 0) {
             others_.push_back({other.transmission, other.start, other.end, other.power_w});
@@ -43,14 +42,13 @@ public:
 
     // The largest sum over the period, in W, without background noise.
     double worst_w();
-    // The nodes that caused the largest sum, from strong to weak, each once. Of the frames on the
-    // air at that moment, these are the strongest, as many as outweigh the rest together, and any
-    // as strong as the last of them. Of several equally bad moments, the start of the earliest
-    // transmission counts. Empty without interference. Valid until the next call of begin or
-    // interferers.
+    // The nodes that caused the largest sum, strongest first, each once. They sent the strongest
+    // frames on the air at that moment: as many as outweigh the rest together, and any as strong as
+    // the last of these. Of several equally bad moments, the start of the earliest transmission
+    // counts. Empty without interference. Valid until the next call of begin or interferers.
     const std::vector<NodeId>& interferers();
-    // The whole function: at least one step, the first at the start of the period, each different
-    // from the one before. Valid until the next call of begin or steps.
+    // The whole step function. The first step is at the start of the period, and each differs from
+    // the one before. Valid until the next call of begin or steps.
     const std::vector<InterferenceStep>& steps();
 
 private:
@@ -71,13 +69,13 @@ private:
 
     // Sorts the starts and the ends within the period.
     void find_changes();
-    // Finds the moments when frames begin, and the sums from then on. Rounding errors are relative
+    // Finds the moments when frames start, and the sums from then on. The rounding error is relative
     // to the largest sum.
     void find_moments();
-    // Of at least one frame; computed once.
+    // Only with at least one frame; computed once.
     SimTime worst_moment();
     SimTime find_worst_moment();
-    // The sum in the order of transmissions, exactly as the radio would round it.
+    // The sum in the order of transmissions, for reproducible rounding.
     double sum_w_at(SimTime moment) const;
 
     SimTime start_;

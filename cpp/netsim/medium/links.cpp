@@ -32,8 +32,8 @@ RadioId Links::add(InterfaceId interface, const Receiver& receiver, const Mounte
 }
 
 std::uint32_t Links::parameters_index(const ReceiverParameters& parameters) {
-    // Usually those of the radio before. Only the latest are compared: each radio may have its own
-    // parameters.
+    // Usually equal to those of the previous radio. Only the latest are compared, since each radio
+    // may have its own parameters.
     constexpr std::ptrdiff_t most = 16;
     const auto last = parameters_.rbegin() + std::min(most, std::ssize(parameters_));
     const auto known = std::find(parameters_.rbegin(), last, parameters);
@@ -46,7 +46,7 @@ std::uint32_t Links::parameters_index(const ReceiverParameters& parameters) {
 }
 
 std::uint32_t Links::group_index(const ReceiverParameters& parameters) {
-    // The difference, less the possible rounding of its sum with the noise.
+    // The difference, minus the possible rounding error of its sum with the noise.
     const double energy_w =
         parameters.energy_detection_w - parameters.noise_w - 1e-15 * parameters.energy_detection_w;
     const double min_w = std::min(parameters.sensitivity_w, energy_w);
@@ -93,7 +93,7 @@ double Links::known_reach_m(KnownReach& known, const Transmission& sent, const R
 }
 
 double Links::reach_of_power_m(const Transmission& sent, const ReceiverGroup& group, double power_w) const {
-    // The margin makes doubtful receivers get the exact calculation.
+    // With the margin, receivers near the limit get the exact computation.
     return power_w > 0 ? propagation_.reach_m(power_w / max_power_w(sent, group), sent.band.carrier_hz) *
                              (1 + rounding_margin)
                        : std::numeric_limits<double>::infinity();

@@ -28,10 +28,10 @@ public:
     // `seed`: of the run, for fading.
     Links(const MediumConfig& config, std::uint64_t seed) : propagation_(config, seed) {}
 
-    // Returns the radio's id: 0, 1, … in the order of adding. Radios are added node by node.
+    // Returns the radio's id: 0, 1, … in the order of calls. Add radios node by node.
     RadioId add(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna, SimTime now);
-    // What an arrival at the radio touches in the layers above it, to be prefetched
-    // (kernel/prefetch.hpp). Null: nothing.
+    // The objects that an arrival at the radio reads in the layers above, to be prefetched
+    // (kernel/prefetch.hpp). May be null.
     void set_prefetch_targets(RadioId radio, const void* interface, const void* protocol) {
         radios_[radio].interface_target = interface;
         radios_[radio].protocol_target = protocol;
@@ -48,21 +48,21 @@ public:
     const std::deque<ReceiverGroup>& groups() const { return groups_; }
     DisplacementBound& displacement() { return displacement_; }
     const DisplacementBound& displacement() const { return displacement_; }
-    // The radio at the frame's destination that can decode it. -1 for a broadcast, and if there is
-    // none.
+    // The radio at the frame's destination that can decode it. -1 for a broadcast, or if there is no
+    // such radio.
     RadioId addressee_of(const Transmission& sent) const;
 
     // Whether the radio takes part in cumulative energy detection (Medium::watch_energy).
     bool watches_energy(RadioId radio) const { return radios_[radio].watches_energy != 0; }
     void set_watches_energy(RadioId radio, bool watches) { radios_[radio].watches_energy = watches ? 1 : 0; }
-    // Prefetching (kernel/prefetch.hpp): what a transmission reads of a radio near it, what it
-    // reads of its sender,
+    // Prefetch (kernel/prefetch.hpp) what a transmission reads of a radio near it,
     void prefetch(RadioId radio) const { netsim::prefetch(radios_[radio]); }
+    // what it reads of its sender,
     void prefetch_sender(RadioId radio) const {
         prefetch(radio);
         netsim::prefetch(trajectories_[radio]);
     }
-    // and what an arrival touches in the layers above, after prefetch(radio).
+    // and what an arrival reads in the layers above. Call the last one after prefetch(radio).
     void prefetch_targets(RadioId radio) const {
         const Radio& there = radios_[radio];
         prefetch_bytes(there.listener, cache_line_bytes);
@@ -70,9 +70,9 @@ public:
         prefetch_bytes(there.protocol_target, cache_line_bytes);
     }
 
-    // The power in W at `radio`, which is at `place` when the transmission starts. `share`: of the
-    // transmission's power in the radio's band. May return 0 for a power below `min_w`, which is
-    // cheaper. Inline: the hottest function of the medium.
+    // The power in W at `radio`, which is at `place` when the transmission starts. `share`: fraction
+    // of the transmission's power in the radio's band. To save time, may return 0 for a power below
+    // `min_w`. Inline: the hottest function of the medium.
     [[gnu::always_inline]] double power_w(const Transmission& sent, double share, RadioId radio,
                                           const Position& place, double distance_m, double min_w = 0) const {
         const InterfaceId receiver = interface(radio);
@@ -96,22 +96,22 @@ public:
 
     bool all_isotropic() const { return antennas_.all_isotropic(); }
     bool is_random() const { return propagation_.is_random(); }
-    // Sent power in W times the largest gains of both antennas: a bound before path loss.
+    // A bound before path loss: sent power in W times the maximum gains of both antennas.
     double max_power_w(const Transmission& sent, const ReceiverGroup& group) const {
         const double in_band_w = sent.power_w * sent.band.share_in(group.band);
         return antennas_.all_isotropic()
                    ? in_band_w
                    : in_band_w * antennas_.max_gain(sent.radio) * group.max_antenna_gain;
     }
-    // No gain is larger at that distance and beyond, up to rounding.
+    // Bound, up to rounding, for the path gain (a linear ratio) at that distance and beyond.
     double max_gain_beyond(double distance_m, double carrier_hz) const {
         return propagation_.max_gain_beyond(distance_m, carrier_hz);
     }
-    // In m. No member of the group farther away notices the transmission when it is alone.
+    // In m. Farther away, no member of the group notices the transmission on its own.
     double reach_m(ReceiverGroup& group, const Transmission& sent) const {
         return known_reach_m(group.reach, sent, group, group.min_noticed_w(sent));
     }
-    // In m. No member of the group farther away receives that power.
+    // In m. Farther away, no member of the group receives that power.
     double reach_of_power_m(const Transmission& sent, const ReceiverGroup& group, double power_w) const;
     // The same, cached in `known`.
     double known_reach_m(KnownReach& known, const Transmission& sent, const ReceiverGroup& group,
@@ -121,9 +121,9 @@ public:
     double ed_radius_m(const Transmission& sent, const ReceiverGroup& group) const;
 
 private:
-    static constexpr std::uint32_t max_parameter_sets = 0x7FFFFFFF;  // more than the radios of any network
-    // What each transmission reads of a radio near it. Kept small: memory access dominates in large
-    // networks.
+    static constexpr std::uint32_t max_parameter_sets = 0x7FFFFFFF;  // more than any network has radios
+    // State that each transmission reads of the radios near it. Small, because memory access
+    // dominates in large networks.
     struct alignas(32) Radio {
         MediumListener* listener = nullptr;
         const void* interface_target = nullptr;
@@ -142,7 +142,7 @@ private:
     std::vector<const Trajectory*> trajectories_;  // [radio]
     std::vector<ReceiverParameters> parameters_;
     std::vector<std::uint32_t> group_of_;  // [parameters]
-    std::vector<RadioId> first_radio_;     // [node]; its others come after it
+    std::vector<RadioId> first_radio_;     // [node]; the node's other radios follow it
     std::deque<ReceiverGroup> groups_;
     DisplacementBound displacement_;
 };

@@ -73,11 +73,11 @@ void Medium::notify_all(ActiveTransmission& entry) {
         entry.last_end = std::max(entry.last_end, arrival.end);
         notify(radio, entry, arrival);
     }
-    tell_observer(sent, {addressed.made + overheard.made, addressed.too_weak + overheard.too_weak});
+    notify_observer(sent, {addressed.made + overheard.made, addressed.too_weak + overheard.too_weak});
     fates_.book_transmission(sent.label, addressed, overheard);
 }
 
-void Medium::tell_observer(const Transmission& sent, CopyCount copies) const {
+void Medium::notify_observer(const Transmission& sent, CopyCount copies) const {
     if (FrameObserver* const observer = fates_.observer(); observer != nullptr) {
         observer->frame_begins(sent, copies.made - copies.too_weak, copies.too_weak);
     }
@@ -118,8 +118,8 @@ CopyCount Medium::find_receivers(ActiveTransmission& entry, std::size_t index) {
     const double within_m = links_.reach_m(group, sent);
     group.members.prepare(sent.start, links_.displacement(), within_m);
     entry.reach_m = std::max(entry.reach_m, within_m);
-    // Up to this distance, the delay may be rounded to 0, also for radios that notice it only
-    // together with others.
+    // Up to this distance, the delay may round to 0, also for radios that notice the transmission
+    // only together with others.
     constexpr double immediate_m = 1e-3;
     const double search_m = std::max({within_m, zones.radius_m(), immediate_m});
     const double min_w = std::min(group.min_noticed_w(sent), zones.min_power_w());
@@ -162,7 +162,7 @@ CopyCount Medium::find_receivers(ActiveTransmission& entry, std::size_t index) {
         return {};
     }
     const std::uint64_t copies =
-        group.members.size() - (links_.group_of(sent.radio) == index ? 1 : 0);  // none for the sender
+        group.members.size() - (links_.group_of(sent.radio) == index ? 1 : 0);  // without the sender
     return {copies, copies - noticed};
 }
 
@@ -172,7 +172,7 @@ void Medium::partition(std::span<const NeighborSearch::Neighbor> near, const Tra
     beyond_.resize(near.size());
     std::size_t within = 0;
     std::size_t beyond = 0;
-    // Branch-free: which receiver is where is unpredictable for the processor.
+    // Branch-free: the processor cannot predict which receivers are within.
     for (const NeighborSearch::Neighbor& there : near) {
         links_.prefetch(there.radio);
         const bool is_within = squared_distance(sent.origin, there.place) <= noticed_m * noticed_m;
@@ -187,7 +187,7 @@ void Medium::partition(std::span<const NeighborSearch::Neighbor> near, const Tra
 
 void Medium::book_copies(const ActiveTransmission& entry, CopyCount copies) {
     const FrameLabel label = entry.transmission.label;
-    tell_observer(entry.transmission, copies);
+    notify_observer(entry.transmission, copies);
     if (label.destination == broadcast_id) {
         fates_.book_transmission(label, copies, {});
         return;
@@ -204,7 +204,7 @@ void Medium::book_copies(const ActiveTransmission& entry, CopyCount copies) {
                              {copies.made - addressed.made, copies.too_weak - addressed.too_weak});
 }
 
-// The receiver will be notified soon. In a large network, most of its state is in no cache by then.
+// The receiver will be notified soon. In a large network, most of its state is not in a cache.
 void Medium::prefetch(RadioId radio, FrameKind kind) const {
     links_.prefetch_targets(radio);
     fates_.prefetch(links_.interface(radio).node, kind, FrameFate::delivered);
@@ -234,8 +234,8 @@ void Medium::schedule_next(ActiveTransmission& entry, ActiveTransmission::Edge e
     simulator_.schedule_reserved(due.time, due.number, [this, &entry, edge] { notify_next(entry, edge); });
 }
 
-// Notifies the next radio, and those after it while no other event comes between: most need not
-// pass through the queue.
+// Notifies the next radio, and further radios while no other event comes first: most of these events
+// need not pass through the queue.
 void Medium::notify_next(ActiveTransmission& entry, ActiveTransmission::Edge edge) {
     Due due;
     do {
@@ -284,7 +284,7 @@ void Medium::notify(RadioId radio, ActiveTransmission& active, const Arrival& ar
     active.late_arrivals.push_back(arrival);
     const SequenceNumber number = active.sequence_number(radio, ActiveTransmission::begins);
     if (simulator_.has_passed(arrival.start, number)) {
-        // It became relevant after its start. Nothing that the radio could have noticed happened in
+        // The arrival became relevant after its start. The radio could not have noticed anything in
         // between.
         start_late_arrival(radio, active, index);
         return;
@@ -308,8 +308,8 @@ void Medium::add_interference_bounds(ActiveTransmission& here, const ActiveTrans
                                                       there, here, there.transmission.power_w)(here.reach_m)
                                                 : std::numeric_limits<double>::infinity();
     here.max_interference_w += max_w;
-    // Six reaches away in free space, the nearest receiver gets twice the power of the farthest
-    // one.
+    // In free space, at six times the reach, the nearest receiver gets twice the power of the
+    // farthest.
     constexpr double close_interferers = 6;
     if (links_.is_random() || max_w == std::numeric_limits<double>::infinity() ||
         squared_distance(here.transmission.origin, there.transmission.origin) <

@@ -1,15 +1,15 @@
 // The medium between the radios of one network: propagation, path loss, noise and interference.
 //
 // A radio is notified only of relevant arrivals: those that it can lock on to, and those that make
-// its channel busy, alone or, while it watches for that, together with others. All other
-// transmissions are kept for as long as they can interfere with a reception, and summed when one
-// ends. The results are those of the plain model, in which every radio is notified of every
-// arrival. The cost is that of the radios nearby.
+// its channel busy, alone or, while the radio watches for that, together with others. The medium
+// keeps all other transmissions for as long as they can interfere with a reception, and sums them
+// when a reception ends. The results equal those of the plain model, in which every radio is
+// notified of every arrival. The cost depends only on the radios nearby.
 //
-// Links knows what each radio receives of a transmission (links.hpp), ActiveTransmissions what is
-// on the air (active_transmissions.hpp), and CumulativeEnergyDetection where several transmissions
-// make a channel busy together (cumulative_energy_detection.hpp). The medium joins them and
-// notifies the radios.
+// Links computes what each radio receives of a transmission (links.hpp). ActiveTransmissions stores
+// what is on the air (active_transmissions.hpp). CumulativeEnergyDetection finds where several
+// transmissions make a channel busy together (cumulative_energy_detection.hpp). The medium combines
+// them and notifies the radios.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +32,8 @@
 
 namespace netsim {
 
-// Whether radios are notified of relevant arrivals only. `disabled` is the plain model: slow and
-// obvious. Tests compare the two.
+// Whether radios are notified of relevant arrivals only. `disabled` is the plain model: slow, but
+// obviously correct. Tests compare the two.
 enum class Culling { enabled, disabled };
 
 class Medium final : private CumulativeEnergyListener {
@@ -44,22 +44,21 @@ public:
     Medium(const Medium&) = delete;
     Medium& operator=(const Medium&) = delete;
 
-    // Returns the radio's id: 0, 1, … in the order of attaching. Attach all interfaces of node 0,
-    // then those of node 1, and so on. A node must not have two radios with the same center
-    // frequency.
+    // Returns the radio's id: 0, 1, … in the order of calls. Attach all interfaces of node 0, then
+    // those of node 1, and so on. A node must not have two radios with the same center frequency.
     RadioId attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna = {});
-    // What an arrival at the radio touches in the layers above it (Links::set_prefetch_targets).
+    // The objects that an arrival reads in the layers above (Links::set_prefetch_targets).
     void set_prefetch_targets(RadioId radio, const void* interface, const void* protocol) {
         links_.set_prefetch_targets(radio, interface, protocol);
     }
 
-    // Starts cumulative energy detection at the radio: it is also notified of frames that exceed
-    // its ED threshold only together. It is on at first. Returns when such frames last stopped
-    // keeping the channel busy, if that was after `since`. Otherwise, and if they still do, returns
-    // long ago. `since` must be within the time set by `remember`.
+    // Starts cumulative energy detection at the radio: it is also notified of frames that exceed its
+    // ED threshold only together. Initially on. Returns when such frames last stopped keeping the
+    // channel busy after `since`; long ago if they did not. `since` must be within the time set by
+    // `remember`.
     SimTime watch_energy(RadioId radio, SimTime since);
     void stop_watching_energy(RadioId radio) { links_.set_watches_energy(radio, false); }
-    // Keeps transmissions for at least that long after their end. The longest requested duration
+    // Keeps transmissions for at least that long after their end. The longest duration of all calls
     // counts.
     void remember(SimTime duration) { remembered_ = std::max(remembered_, duration); }
 
@@ -70,14 +69,14 @@ public:
     // the id, start and origin of `transmission`.
     void transmit(Transmission transmission);
 
-    // The interference with `arrival` at `receiver` from `start` until just before `end`, which is
-    // not in the future. Call it before the arrival's end is over. Valid until the next call.
+    // The interference with `arrival` at `receiver` from `start` until just before `end`, which must
+    // not be in the future. Call it before or in arrival_ended. Valid until the next call.
     InterferenceSum& interference_with(RadioId receiver, const Arrival& arrival, SimTime start, SimTime end);
 
-    // An upper bound in W for that interference over the whole arrival, for one that reached the
-    // sensitivity. Costs nothing. Infinite if there is no such bound.
+    // An upper bound in W for that interference over the whole arrival, which must reach the
+    // receiver's sensitivity. O(1). Infinite if no bound is known.
     double max_interference_w(const Arrival& arrival) const { return arrival.active->max_interference_w; }
-    // A tighter bound at that receiver, once the arrival has ended. Costs more.
+    // A tighter bound at that receiver, for an arrival that has ended. More expensive.
     double max_interference_w(RadioId receiver, const Arrival& arrival) const;
 
     Simulator& simulator() const { return simulator_; }
@@ -85,8 +84,7 @@ public:
     FrameFates& fates() { return fates_; }
     Fingerprint& fingerprint() { return fingerprint_; }
     const BackgroundNoise& background_noise() const { return background_noise_; }
-    // Transmissions on the air, or ended but able to interfere with an ongoing reception. Tests
-    // check that it stays small.
+    // Number of transmissions on the air, or ended but kept. Tests check that it stays small.
     std::size_t remembered_count() const { return active_transmissions_.size(); }
     // How often the power of a transmission at a radio was computed for sums of energy. Tests check
     // that it is a few times per pair of overlapping transmissions, even if very many overlap.
@@ -99,15 +97,14 @@ private:
     };
     void notify_all(ActiveTransmission& entry);
     void find_all_receivers(ActiveTransmission& entry);
-    // Finds the receivers of one group: those that notice it go to `scheduled`, others to its watch
-    // zones. Returns the group's count for the ledger.
+    // Finds the receivers of one group. Those that notice the transmission go to `scheduled`, and
+    // watching ones to its watch zones. Returns the group's numbers of receptions.
     CopyCount find_receivers(ActiveTransmission& entry, std::size_t index);
-    // Splits `near` by distance to the sender, leaving out the sender: receivers in `within_` may
-    // notice the transmission, those in `beyond_` only together with others. Prefetches what is
-    // known of each.
+    // Splits `near` by distance to the sender, without the sender. Receivers in `within_` may notice
+    // the transmission, those in `beyond_` only together with others. Prefetches the state of each.
     void partition(std::span<const NeighborSearch::Neighbor> near, const Transmission& sent,
                    double noticed_m);
-    void tell_observer(const Transmission& sent, CopyCount copies) const;
+    void notify_observer(const Transmission& sent, CopyCount copies) const;
     void book_copies(const ActiveTransmission& entry, CopyCount copies);
     void prefetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(ActiveTransmission& entry);

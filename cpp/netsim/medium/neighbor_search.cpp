@@ -69,8 +69,8 @@ void NeighborSearch::build(SimTime now, double reach_m) {
         first_entry_[i] += first_entry_[i - 1];
     }
     std::vector<std::uint32_t> next = first_entry_;
-    entries_.resize(radios_.size() + batch - 1);  // the last batch is read to its end, too
-    // Full batches, a partial one for each of the two ranges of a row, and those written beyond the
+    entries_.resize(radios_.size() + batch - 1);  // the last batch is read to its end
+    // Full batches, a partial one for each of the two ranges of a row, and those written after the
     // last one.
     batches_.resize(radios_.size() / batch + 2 * columns_ + usual_batches + 1);
     trajectories_.resize(radios_.size());
@@ -84,8 +84,8 @@ void NeighborSearch::build(SimTime now, double reach_m) {
     rounding_m_ = 1e-12 * std::max({largest.x, largest.y, largest.z, 0.0});
 }
 
-// Ranges are short, and their lengths are unpredictable. So the loop has a fixed number of rounds,
-// which the processor predicts, and only the rare longer ranges take more.
+// Ranges are short and of unpredictable length. So the first loop has a fixed number of iterations,
+// which the processor predicts. Only the rare longer ranges need the second.
 NeighborSearch::Batch* NeighborSearch::add_batches(Batch* next, std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = 0; i < usual_batches; ++i) {
         *next = {first + i * batch, end};
@@ -97,18 +97,18 @@ NeighborSearch::Batch* NeighborSearch::add_batches(Batch* next, std::uint32_t fi
     return next;
 }
 
-std::span<const NeighborSearch::Batch> NeighborSearch::batches_within(const Position& centre,
+std::span<const NeighborSearch::Batch> NeighborSearch::batches_within(const Position& center,
                                                                       double radius_m) {
     Batch* const begin = batches_.data();
     const auto rows = static_cast<std::int64_t>(columns_);
-    const std::int64_t first_row = cell_of(centre.y - radius_m);
-    const std::int64_t last_row = cell_of(centre.y + radius_m);
+    const std::int64_t first_row = cell_of(center.y - radius_m);
+    const std::int64_t last_row = cell_of(center.y + radius_m);
     // Also true if the radius is infinite or NaN.
     if (!(radius_m < 1e150) || last_row - first_row >= rows) {
         return {begin, add_batches(begin, 0, static_cast<std::uint32_t>(radios_.size()))};
     }
-    const std::int64_t first = cell_of(centre.x - radius_m);
-    const std::int64_t last = cell_of(centre.x + radius_m);
+    const std::int64_t first = cell_of(center.x - radius_m);
+    const std::int64_t last = cell_of(center.x + radius_m);
     const bool is_all = last - first >= rows;
     const std::size_t from = is_all ? 0 : column_of(first);
     const std::size_t to = is_all ? columns_ : from + static_cast<std::size_t>(last - first) + 1;
@@ -123,24 +123,23 @@ std::span<const NeighborSearch::Batch> NeighborSearch::batches_within(const Posi
     return {begin, next};
 }
 
-std::span<const NeighborSearch::Neighbor> NeighborSearch::near(const Position& centre, double radius_m) {
-    const double far_m = std::max({std::abs(centre.x), std::abs(centre.y), std::abs(centre.z)});
+std::span<const NeighborSearch::Neighbor> NeighborSearch::near(const Position& center, double radius_m) {
+    const double far_m = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
     const double search_m = (radius_m + moved_m_) * (1 + 1e-9) + rounding_m_ + 1e-12 * far_m;
-    const std::span<const Batch> batches = batches_within(centre, search_m);
-    const std::size_t most = batches.size() * batch + 1;  // one more: the last write may not count
-    if (near_.size() < most) {
-        near_.resize(most);
-        found_.resize(most);
+    const std::span<const Batch> batches = batches_within(center, search_m);
+    const std::size_t needed = batches.size() * batch + 1;  // one more: the last write may not count
+    if (near_.size() < needed) {
+        near_.resize(needed);
+        found_.resize(needed);
     }
-    // Branch-free: half of the entries are too far away, in an order that the processor cannot
-    // predict.
+    // Branch-free: half of the entries are too far away, and the processor cannot predict which.
     const double squared_m2 = search_m * search_m;
     std::size_t found = 0;
     const auto check_all = [&](const auto& store) {
         for (const Batch& each : batches) {
             for (std::uint32_t entry = each.first; entry < each.first + batch; ++entry) {
                 store(entry);
-                const bool is_too_far = squared_distance(centre, entries_[entry].place) > squared_m2;
+                const bool is_too_far = squared_distance(center, entries_[entry].place) > squared_m2;
                 found += static_cast<std::size_t>(!is_too_far) & static_cast<std::size_t>(entry < each.end);
             }
         }

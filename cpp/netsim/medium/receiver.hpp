@@ -1,4 +1,4 @@
-// What the medium knows of a radio's receiver.
+// A radio's receiver, as the medium sees it.
 #pragma once
 
 #include "netsim/kernel/sim_time.hpp"
@@ -19,7 +19,7 @@ protected:
     ~MediumListener() = default;
 };
 
-// Relative margin for rounding: upper bounds are raised, and thresholds lowered, by this share.
+// Relative margin for rounding: upper bounds are raised, and thresholds lowered, by this fraction.
 inline constexpr double rounding_margin = 1e-9;
 
 // What a receiver can detect. Most radios of a network have the same parameters.
@@ -28,7 +28,7 @@ struct ReceiverParameters {
     double sensitivity_w = 0;       // the least power that it can lock on to
     double energy_detection_w = 0;  // ED threshold: noise and signals that make the channel busy together
     double noise_w = 0;             // in its band when no radio sends
-    // For this long, it may leave a frame that it can lock on to out of the energy.
+    // For this long after the start of a lockable frame, the receiver may ignore its energy.
     SimTime detection_time = SimTime::from_ps(0);
     PpduFormats formats = PpduFormats::all();
 
@@ -39,11 +39,11 @@ struct ReceiverParameters {
     bool can_lock_on(const Transmission& sent, double power_w) const {
         return power_w >= sensitivity_w && can_decode(sent);
     }
-    // Whether that power, with the noise, makes the channel busy.
+    // Whether that power plus the noise makes the channel busy.
     bool exceeds_ed(double power_w) const { return noise_w + power_w >= energy_detection_w; }
     // The same with a margin for the rounding of a sum of powers.
     bool surely_exceeds_ed(double power_w) const { return exceeds_ed(power_w * (1 - rounding_margin)); }
-    // How many W may be added to that power before the channel can become busy.
+    // By how many W that power may rise before the channel can become busy.
     double headroom_w(double power_w) const {
         return energy_detection_w * (1 - rounding_margin) - (noise_w + power_w);
     }

@@ -1,8 +1,8 @@
 // Sorts the arrivals of one transmission by start, then by radio: the order of their events.
 //
-// Up to 64 arrivals, the usual case, are sorted by rank: the index of each is the number of those
-// before it. Ranks are counted without branches, four at a time. Comparisons of distances are
-// unpredictable, and one branch misprediction costs as much as many of them.
+// Up to 64 arrivals, the usual case, are sorted by rank: the index of each is the number of arrivals
+// before it. Ranks are counted without branches, four at a time. The results of comparisons are
+// unpredictable, and one branch misprediction costs as much as many comparisons.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 
 namespace netsim {
 
-// Sort `arrivals` of a transmission that started at `sent`. An `Arrival` has a `start`, not before
+// Sorts the arrivals of a transmission that started at `sent`. An `Arrival` has a `start`, not before
 // `sent`, and a `radio`, different for each. `spare` is working memory.
 template <typename Arrival>
 void sort_arrivals(std::vector<Arrival>& arrivals, SimTime sent, std::vector<Arrival>& spare) {
@@ -34,7 +34,7 @@ void sort_arrivals(std::vector<Arrival>& arrivals, SimTime sent, std::vector<Arr
         delays_ps[i / lanes][i % lanes] = static_cast<std::int32_t>(delay_ps);
         radios[i / lanes][i % lanes] = arrivals[i].radio;
     }
-    const bool fits = latest_ps < never;  // as within 600 km
+    const bool fits = latest_ps < never;  // up to 643 km
     if (arrivals.size() > few || !fits) {
         std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
             return a.start != b.start ? a.start < b.start : a.radio < b.radio;
