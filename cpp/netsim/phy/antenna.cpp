@@ -14,7 +14,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// From the boresight, 0 … π.
+// In rad, 0 … π.
 double angle_from_boresight(const Position& direction) {
     return std::atan2(std::hypot(direction.y, direction.z), direction.x);
 }
@@ -52,13 +52,14 @@ public:
         const double along = dot_product(direction, wire_);
         const Position across = direction - wire_ * along;
         const double squared_sine = dot_product(across, across) / squared;
-        // Rounding must not make it larger than the maximum.
+        // Rounding must not make the gain exceed max_gain().
         return directivity_ * std::min(intensity(along / std::sqrt(squared), squared_sine) / across_, 1.0);
     }
     double max_gain() const override { return directivity_; }
 
 private:
-    // F(θ) up to a factor. The difference of cosines as a product keeps short wires exact.
+    // F(θ) up to a factor. The difference of cosines is written as a product, for precision with
+    // short wires.
     double intensity(double cosine, double squared_sine) const {
         constexpr double short_rad = 1e-4;
         if (half_length_ < short_rad || squared_sine == 0) {

@@ -67,7 +67,7 @@ std::string bitrates_of_modes_mbps() {
     refuse(path, "line " + std::to_string(line) + ": " + what);
 }
 
-// A file of another type or encoding could not be shown in the message.
+// Rejects files of another type or encoding here: messages about their lines would be unreadable.
 void check_ascii(const std::string& path, int number, std::string_view text) {
     for (const char character : text) {
         const auto byte = static_cast<unsigned char>(character);
@@ -130,16 +130,17 @@ private:
 
 BerTableErrorModel::BerTableErrorModel(const std::string& path) {
     std::error_code ignored;
-    const bool is_folder = std::filesystem::is_directory(path, ignored);
+    const bool is_directory = std::filesystem::is_directory(path, ignored);
     std::ifstream file(path);
-    if (!file || is_folder) {
-        refuse(path, std::string("expected a file that can be read") + (is_folder ? ", not a folder" : ""));
+    if (!file || is_directory) {
+        refuse(path,
+               std::string("expected a file that can be read") + (is_directory ? ", not a folder" : ""));
     }
     bool is_first = true;
     int number = 0;
     for (std::string text; std::getline(file, text);) {
         ++number;
-        if (number == 1 && text.starts_with(byte_order_mark)) {  // which Excel puts there
+        if (number == 1 && text.starts_with(byte_order_mark)) {  // Excel writes one
             text.erase(0, byte_order_mark.size());
         }
         if (!text.empty() && text.back() == '\r') {

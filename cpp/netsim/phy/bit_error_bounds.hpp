@@ -1,8 +1,8 @@
-// Upper and lower bounds of a bit error rate from a table over the SNIR, with 32 steps per factor
-// of two.
+// Upper and lower bounds of a bit error rate, from a table over the SNIR with 32 steps per factor of
+// two.
 //
-// Most frames are much stronger than the interference, and most of the others much weaker. For them
-// the table suffices.
+// Most frames are much stronger than the interference, and most of the rest are much weaker. For
+// these, the table suffices.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace netsim {
 
 class BitErrorBounds {
 public:
-    // `rate_at(snir)` is in [0, 1] and does not rise with the SNIR, a linear ratio.
+    // `rate_at(snir)` must be in [0, 1] and must not rise with the SNIR, a linear ratio.
     template <typename Rate>
     explicit BitErrorBounds(const Rate& rate_at) {
         for (std::size_t i = 0; i < rates_.size(); ++i) {
@@ -36,8 +36,8 @@ public:
     }
 
 private:
-    // A step is the upper bits of a double, with the first five of its mantissa. It rises with the
-    // double.
+    // The number of a step consists of the upper bits of a double, including the first five of its
+    // mantissa. It rises with the double.
     static constexpr int step_shift = 52 - 5;
     static constexpr std::uint64_t first_step = std::bit_cast<std::uint64_t>(0.125) >> step_shift;
     static constexpr std::uint64_t last_step = std::bit_cast<std::uint64_t>(2048.0) >> step_shift;

@@ -31,8 +31,8 @@ double to_the_fifth(double x) {
     return x * x * x * x * x;
 }
 
-// Of OFDM after decoding. Raw bit error p = share · ½ erfc(√x), where x is the SNIR over the
-// constellation's spread.
+// Bit error rate of OFDM after decoding. The raw bit error rate is p = share · ½ erfc(√x), where x
+// is the SNIR divided by a constant of the constellation.
 double coded_bit_error(Constellation constellation, CodeRate code_rate, double snir) {
     double share = 1;
     double x = snir;
@@ -51,8 +51,8 @@ double coded_bit_error(Constellation constellation, CodeRate code_rate, double s
             x = snir / 42;
             break;
     }
-    // From these x on, the union bound is below 1e-24: over a million bits, it changes no digit of
-    // the success.
+    // Above these x, the union bound is below 1e-24. Even over a million bits, the success
+    // probability rounds to 1.
     constexpr double last_x_one_half = 13;
     constexpr double last_x_two_thirds = 20;
     constexpr double last_x_three_quarters = 24;
@@ -100,7 +100,7 @@ double dsss_2_bit_error(double snir) {
     return std::min(factor / std::sqrt(snir) * std::exp(-(2 - sqrt2) * snir), 1.0);
 }
 
-// Fits to simulated CCK receivers, with the range in which they hold.
+// Limits a fit to simulated CCK receivers to the range in which it is valid.
 double cck_bit_error(double snir, double (*fit)(double)) {
     if (snir > 10) {
         return 0;
@@ -118,7 +118,7 @@ double cck_11_fit(double snir) {
     return dividend / divisor;
 }
 
-// Rounding of the bounds, and of the values that they bound.
+// Margin for the rounding of the bounds and of the values that they bound.
 constexpr double bounds_rounding = 1e-9;
 
 const BitErrorBounds& ofdm_bounds(Constellation constellation, CodeRate code_rate) {
@@ -145,8 +145,8 @@ const BitErrorBounds& dsss_bounds(std::int64_t bitrate_bps) {
     return bitrate_bps == 1'000'000 ? slow : fast;
 }
 
-// The mean number of lost bits of a frame, header included, by a bound of the rate: `rate(const
-// BitErrorBounds&)`. Not for CCK, whose fits need not fall with the SNIR.
+// The expected number of bit errors of a frame, including its header, for the bit error rate that
+// `rate(const BitErrorBounds&)` returns. Not for CCK, whose fits need not fall with the SNIR.
 template <typename Rate>
 double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
     const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
@@ -177,7 +177,7 @@ double NistErrorModel::bit_error_rate(const Mode& mode, double snir) {
         case ModeFamily::cck:
             return cck_bit_error(snir, mode.bitrate_bps == 5'500'000 ? cck_5_5_fit : cck_11_fit);
         case ModeFamily::oqpsk:
-            break;  // not of 802.11
+            break;  // not an 802.11 mode
     }
     NETSIM_ASSERT(false);
 }
@@ -195,8 +195,8 @@ double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
                        mode.header_bits);
 }
 
-// n bits that fail independently, each with probability b at most, all survive with at least 1 − n
-// b.
+// If n bits fail independently, each with probability b at most, all survive with a probability of
+// at least 1 − n b.
 double NistErrorModel::min_success(const Mode& mode, double snir, int psdu_bytes) const {
     if (mode.family == ModeFamily::cck) {
         return 0;
@@ -207,8 +207,8 @@ double NistErrorModel::min_success(const Mode& mode, double snir, int psdu_bytes
     return lost < nothing ? 1 : 1 - bounds_rounding - lost;
 }
 
-// If each fails with probability b at least: at most (1 − b)^n ≤ e^(−n b) ≤ 1 / (1 + n b + (n b)² /
-// 2).
+// If each bit fails with probability b at least, the probability that all survive is at most
+// (1 − b)^n ≤ e^(−n b) ≤ 1 / (1 + n b + (n b)² / 2).
 double NistErrorModel::max_success(const Mode& mode, double snir, int psdu_bytes) const {
     if (mode.family == ModeFamily::cck) {
         return 1;

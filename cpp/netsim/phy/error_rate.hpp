@@ -1,7 +1,7 @@
 // The probability that a frame survives noise and interference.
 //
-// Used by the radio at the end of a reception, with the minimum SNIR of the frame, or at the ends
-// of its parts, with the SNIR of each time interval (phy/reception.hpp). Error rates from a table:
+// The radio uses it at the end of a reception, with the minimum SNIR of the frame, or at the ends of
+// its parts, with the SNIR of each time interval (phy/reception.hpp). Success ratios from a table:
 // phy/ber_table.hpp.
 //
 // NIST model, s the linear SNIR: G. Pei and T. R. Henderson, "Validation of OFDM error rate model
@@ -15,8 +15,8 @@
 //   Header of DSSS and CCK 48 bits at 1 Mbps, data 8 bits per byte.
 // success = (1 - header bit error)^header bits · (1 - data bit error)^data bits.
 //
-// ns-3's model of the same name has the same bit errors for OFDM. For DSSS, it uses s times the
-// ratio of bandwidth to bitrate (22 at 1 Mbps), where this model uses s times 2, as INET does.
+// ns-3's model of the same name has the same bit error rates for OFDM. For DSSS, it multiplies s by
+// the ratio of bandwidth to bitrate (22 at 1 Mbps). This model multiplies it by 2, as INET does.
 #pragma once
 
 #include <cmath>
@@ -32,19 +32,19 @@ class ErrorModel {
 public:
     virtual ~ErrorModel() = default;
 
-    // In [0, 1]. `snir` is a linear ratio ≥ 0, may be infinite; `psdu_bytes` ≥ 0.
+    // In [0, 1]. `snir`: a linear ratio ≥ 0, may be infinite. `psdu_bytes` ≥ 0.
     virtual double success_probability(const Mode& mode, double snir, int psdu_bytes) const = 0;
 
-    // A cheap lower bound for success_probability at that SNIR and above; 0 or less if there is
-    // none. Exactly 1 only where the probabilities are.
+    // A cheap lower bound for success_probability at that SNIR and above; ≤ 0 if there is none.
+    // Exactly 1 only if all these probabilities are.
     virtual double min_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const { return 0; }
 
     // A cheap upper bound for success_probability at that SNIR and below; 1 if there is none.
     virtual double max_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const { return 1; }
 
-    // Natural logarithms, ≤ 0, of the success of the PHY header and of the data. Their sum is that
-    // of the whole frame. A share of a part has that share of its logarithm. A model without
-    // headers has all in the data.
+    // Natural logarithms, ≤ 0, of the success probabilities of the PHY header and of the data. Their
+    // sum is the logarithm for the whole frame. A fraction of a part has that fraction of its
+    // logarithm. In a model without headers, the data has the whole logarithm.
     virtual double log_header_success(const Mode& /*mode*/, double /*snir*/) const { return 0; }
     virtual double log_data_success(const Mode& mode, double snir, int psdu_bytes) const {
         return std::log(success_probability(mode, snir, psdu_bytes));
@@ -56,15 +56,15 @@ public:
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
     double log_header_success(const Mode& mode, double snir) const override;
     double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
-    // Both have bounds for all modes but CCK.
+    // Both have bounds for all modes except CCK.
     double min_success(const Mode& mode, double snir, int psdu_bytes) const override;
     double max_success(const Mode& mode, double snir, int psdu_bytes) const override;
 
-    // Of one data bit after decoding, in [0, 1].
+    // Bit error rate of the data after decoding, in [0, 1].
     static double bit_error_rate(const Mode& mode, double snir);
 };
 
-// A receiver without bit errors: only the threshold of RadioConfig::snir_threshold decides.
+// A receiver without bit errors: only RadioConfig::snir_threshold decides.
 class NoErrorModel final : public ErrorModel {
 public:
     double success_probability(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const override {
@@ -73,10 +73,11 @@ public:
     double min_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const override { return 1; }
 };
 
-// The models without parameters, by RadioConfig::error_model. Throws ConfigError for other names.
+// Returns a model without parameters by its RadioConfig::error_model. Throws ConfigError for other
+// names.
 const ErrorModel& error_model(std::string_view name);
-// Any model, read from its file if it has one. Throws ConfigError for an unknown name or an invalid
-// file.
+// Creates any model, and reads its file if it has one. Throws ConfigError for an unknown name or an
+// invalid file.
 std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config);
 
 }  // namespace netsim

@@ -2,7 +2,8 @@
 // Off by default.
 //
 // The new frame must begin at most `window` after the start of the locked frame, with more than
-// `margin` times its power. During that time, a receiver can still train on another preamble.
+// `margin` times (a linear ratio) its power. In that time, a receiver can still train on another
+// preamble.
 #pragma once
 
 #include "netsim/config/radio_config.hpp"

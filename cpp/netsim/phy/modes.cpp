@@ -74,8 +74,8 @@ constexpr std::array<Mode, 8> ofdm_modes{
     ofdm("OFDM 54 Mbps", 216, false, qam64, three_quarters, us(0)),
 };
 
-// The same in the 2.4 GHz band. A silent extension gives decoders the time that the longer SIFS
-// gives at 5 GHz.
+// The same in the 2.4 GHz band (clause 18). The silent signal extension gives decoders the time that
+// the longer SIFS gives them at 5 GHz.
 constexpr std::array<Mode, 8> erp_modes{
     ofdm("ERP-OFDM 6 Mbps", 24, true, bpsk, one_half, us(6)),
     ofdm("ERP-OFDM 9 Mbps", 36, false, bpsk, three_quarters, us(6)),
@@ -89,7 +89,7 @@ constexpr std::array<Mode, 8> erp_modes{
 
 constexpr std::array<Mode, 4> b_modes{dsss_1, dsss_2, cck_5_5, cck_11};
 
-// By bitrate: 1 2 5.5 6 9 11 12 18 …
+// In order of bitrate: 1, 2, 5.5, 6, 9, 11, 12, 18, … Mbps.
 constexpr std::array<Mode, 12> mixed_modes{dsss_1,       dsss_2,       cck_5_5,      erp_modes[0],
                                            erp_modes[1], cck_11,       erp_modes[2], erp_modes[3],
                                            erp_modes[4], erp_modes[5], erp_modes[6], erp_modes[7]};

@@ -1,13 +1,13 @@
 // The modes of IEEE 802.11 b, g and a: bitrates, modulations and durations of frames, and the slot,
 // SIFS and contention windows of each operation mode.
 //
-// A mode is one way to send a frame; a mode set has those of one operation mode. Both are constant
-// tables: references and pointers into them stay valid. Used by the radio (durations), the error
-// model (modulation) and the MAC (bitrates, intervals).
+// A mode is one way to send a frame; a mode set has the modes of one operation mode. Both are
+// constant tables: references and pointers into them stay valid. Used by the radio (durations), the
+// error model (modulation) and the MAC (bitrates, intervals).
 //
-// Durations (IEEE Std 802.11-2020), n the bytes of the PSDU = MPDU, headers and FCS included:
+// Durations (IEEE Std 802.11-2020), with n the bytes of the PSDU (= MPDU, with headers and FCS):
 //   OFDM (clauses 17.4.3, 18.5.3): 16 µs preamble + 4 µs SIGNAL + ⌈(16 + 8n + 6) / N_DBPS⌉ symbols of 4 µs,
-//     and in g 6 µs of signal extension.
+//     and for g 6 µs of signal extension.
 //   DSSS, CCK (clauses 15.2, 16.2.3.5): 144 µs long preamble + 48 µs header + ⌈8n / bitrate⌉ whole µs.
 #pragma once
 
@@ -21,7 +21,8 @@
 
 namespace netsim {
 
-// 1 and 2; 5.5 and 11; 6 to 54 Mbps; the 250 kbps of 802.15.4 (phy/oqpsk_mode.hpp).
+// dsss: 1 and 2 Mbps; cck: 5.5 and 11 Mbps; ofdm: 6 to 54 Mbps; oqpsk: the 250 kbps of 802.15.4
+// (phy/oqpsk_mode.hpp).
 enum class ModeFamily { dsss, cck, ofdm, oqpsk };
 enum class Constellation { bpsk, qpsk, qam16, qam64 };
 enum class CodeRate { none, one_half, two_thirds, three_quarters };
@@ -39,13 +40,13 @@ struct Mode {
     int data_bits_per_symbol = 0;  // N_DBPS
     SimTime signal_extension;
 
-    SimTime preamble;     // until the PHY header begins
-    SimTime header;       // SIGNAL or PLCP header
-    int header_bits = 0;  // of it, and how fast they are sent
+    SimTime preamble;     // duration until the PHY header
+    SimTime header;       // duration of the SIGNAL field or PLCP header
+    int header_bits = 0;  // number of its bits
     std::int64_t header_bitrate_bps = 0;
-    SimTime phy_rx_start_delay;  // from the start of a frame on the air until the PHY reports it
+    SimTime phy_rx_start_delay;  // aRxPHYStartDelay: from the start of a frame until the PHY reports it
 
-    // Bits of the data part on the air: for OFDM with service field, tail and padding.
+    // Bits of the data part on the air. For OFDM, including service field, tail and padding.
     std::int64_t data_bits(int psdu_bytes) const;
     // Time on the air of a whole frame. `psdu_bytes` ≥ 0.
     SimTime duration(int psdu_bytes) const;
@@ -60,21 +61,21 @@ public:
 
     std::string_view name() const { return name_; }
     std::span<const Mode> modes() const { return modes_; }
-    // The formats of its modes. A station of the set can decode all frames of these formats: no
-    // other set has a mode in one of them that is missing here.
+    // The formats of its modes. A station of the set can decode all frames of these formats: for each
+    // of them, the set has all modes that any set has.
     PpduFormats formats() const;
     // The index of a mode of this set.
     std::size_t index_of(const Mode& mode) const { return static_cast<std::size_t>(&mode - modes_.data()); }
 
-    // Those of the slowest mode of the set. Derived intervals are in mac/timing.hpp.
+    // Slot time and SIFS of the slowest mode in the set. Derived intervals are in mac/timing.hpp.
     SimTime slot() const { return slot_; }
     SimTime sifs() const { return sifs_; }
     // Contention windows in slots: a backoff is drawn from 0 … cw.
     int cw_min() const { return cw_min_; }
     int cw_max() const { return cw_max_; }
 
-    // -1 gives the fastest mandatory mode. Throws ConfigError, with the valid rates, for a rate
-    // that is not in the set. `field`: the name under which the user set it.
+    // For a bitrate of -1, the fastest mandatory mode. Throws ConfigError, with the valid bitrates,
+    // for a bitrate that is not in the set. `field`: the field that the user set.
     const Mode& mode_for_bitrate(double bitrate_bps, std::string_view field = "mac.bitrate_bps") const;
     const Mode& fastest_mandatory() const;
     const Mode& slowest_mandatory() const;
@@ -91,8 +92,8 @@ private:
     int cw_max_;
 };
 
-// The table of operation modes: "b", "g(erp)", "g(mixed)", "a" (MacConfig::op_mode). Throws
-// ConfigError for another.
+// The mode set of an operation mode: "b", "g(erp)", "g(mixed)" or "a" (MacConfig::op_mode). Throws
+// ConfigError for other names.
 const ModeSet& mode_set(std::string_view op_mode);
 
 }  // namespace netsim

@@ -10,8 +10,8 @@ namespace netsim {
 
 double OqpskErrorModel::bit_error_rate(double snir) {
     NETSIM_ASSERT(snir >= 0);
-    // From here on, the sum, dominated by k = 2, is below 1e-16: over the longest frame, it changes
-    // no digit.
+    // Above this, the bit error rate, dominated by k = 2, is below 1e-16. Even over the longest
+    // frame, the success probability rounds to 1.
     constexpr double negligible_from = 4;
     if (snir > negligible_from) {
         return 0;

@@ -1,7 +1,7 @@
 // The only mode of IEEE 802.15.4 at 2.4 GHz: O-QPSK with 250 kbps.
 //
-// A frame has 128 µs of preamble (4 octets) + 64 µs of header (start-of-frame delimiter and length,
-// one octet each) + 32 µs per byte of the PSDU: a symbol has 4 bits and 16 µs.
+// A frame lasts 128 µs of preamble (4 octets) + 64 µs of header (start-of-frame delimiter and length,
+// one octet each) + 32 µs per byte of the PSDU. A symbol has 4 bits and lasts 16 µs.
 //
 // Source: IEEE Std 802.15.4-2006, 6.3 (PPDU format) and 6.5 (2450 MHz PHY).
 #pragma once

@@ -1,10 +1,9 @@
 // Preamble detection: the rule by which a radio locks on to a frame.
 //
 // Without it (the default), a radio locks on at once to any frame that reaches its sensitivity.
-// With it, the radio listens for `duration` first. Then it locks on to the strongest of the frames
-// that began meanwhile, if that one is strong enough in absolute power and relative to all other
-// energy in the band at that time. Sensing energy takes as long: a frame that has just begun does
-// not make the channel busy yet.
+// With it, the radio first listens to a frame for `duration`. It then locks on to the frame if no
+// other frame in detection is stronger, and if its power and its SNIR reach their thresholds. Sensing
+// energy takes as long: a frame that has just begun does not make the channel busy yet.
 #pragma once
 
 #include "netsim/config/radio_config.hpp"

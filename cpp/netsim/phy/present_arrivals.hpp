@@ -1,9 +1,9 @@
-// The arrivals currently at one radio. They are in the order of their transmissions, not of
-// notification, so that the rounding of their sum does not depend on the latter. The radio may be
-// locked on to one of them.
+// The arrivals currently at one radio. They are in the order of their transmissions, so that the
+// rounding of their sum does not depend on the order of notifications. The radio may be locked on to
+// one of them.
 //
 // A single arrival, the usual case, is stored in the radio itself, in a cache line that the medium
-// prefetches. Several are stored together on the heap.
+// prefetches. Several arrivals are stored on the heap.
 #pragma once
 
 #include <algorithm>
@@ -48,7 +48,7 @@ public:
             content_.several = new Several{.arrivals = {content_.one}, .locked = content_.one.transmission};
             count_ = Count::several;
         }
-        // Usually at the end.
+        // Usually inserted at the end.
         const auto is_later = [](std::uint64_t id, const PresentArrival& other) {
             return id < other.transmission->id();
         };
@@ -56,7 +56,7 @@ public:
         all.insert(std::upper_bound(all.begin(), all.end(), arrival.transmission->id(), is_later), arrival);
     }
 
-    // Removes the arrival of `transmission`, which must be present, and not locked on to.
+    // Removes the arrival of `transmission`. It must be present, and the radio not locked on to it.
     void remove(const Transmission* transmission) {
         if (count_ == Count::one) {
             NETSIM_ASSERT(content_.one.transmission == transmission && !is_locked_);
@@ -86,7 +86,7 @@ public:
             NETSIM_ASSERT(count_ == Count::one && content_.one.transmission == transmission);
         }
     }
-    // Returns the transmission it was locked on to. Only while it is locked.
+    // Returns the transmission that the radio was locked on to. Only while it is locked.
     const Transmission& unlock() {
         const Transmission* const was_locked = locked();
         NETSIM_ASSERT(was_locked != nullptr);

@@ -24,7 +24,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     give_up_reception();
     transmitting_ = true;
     turned_ = false;
-    if (watches_energy_ && may_ignore_energy()) {  // its channel is busy in any case
+    if (watches_energy_ && may_ignore_energy()) {  // while it transmits, its channel is busy anyway
         medium().stop_watching_energy(id_);
     }
     Transmission transmission;
@@ -166,7 +166,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
         reports_ = true;
         try {
             end_reception(arrival);
-        } catch (...) {  // thrown by a protocol: the channel is free all the same
+        } catch (...) {  // thrown by a protocol: still update the channel state
             end_report();
             throw;
         }
@@ -175,9 +175,9 @@ void Radio::arrival_ended(const Arrival& arrival) {
     }
     present_.remove(arrival.transmission);
     if (is_candidate(arrival.transmission)) {
-        const auto unnoticed = candidate_of(arrival.transmission);
-        simulator().cancel(unnoticed->detection);
-        candidates_.erase(unnoticed);
+        const auto undetected = candidate_of(arrival.transmission);
+        simulator().cancel(undetected->detection);
+        candidates_.erase(undetected);
         book(*arrival.transmission, FrameFate::preamble_undetected);
     }
     update_busy();
@@ -210,14 +210,14 @@ void Radio::end_reception(const Arrival& arrival) {
     }
 }
 
-// One draw decides both cases, with interference and without. A frame counts as lost to noise if
-// the same draw would have lost it without interference.
+// One random number decides both cases, with and without interference. A frame counts as lost to
+// noise if it would be lost without interference by the same number.
 FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause) {
-    // In a large network, some transmission is always on the air, usually far away. Then a bound
-    // suffices, without the sum of interference, and usually without the draw.
+    // In a large network, some transmission is always on the air, usually far away. Then a bound of
+    // the interference suffices, usually even without drawing the number.
     const double min_success = model_.reception.min_success(arrival, medium().max_interference_w(arrival));
     if (min_success == 1) {
-        ++drawn_;  // the number itself is not needed
+        ++drawn_;  // skips the number
         return FrameFate::delivered;
     }
     const double draw = this->draw();
@@ -225,7 +225,7 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause)
         draw < model_.reception.min_success(arrival, medium().max_interference_w(id_, arrival))) {
         return FrameFate::delivered;
     }
-    listener_->prefetch_for_corrupted_frame();  // rarely needed, and slow enough to prefetch meanwhile
+    listener_->prefetch_for_corrupted_frame();  // meanwhile, the sum is computed
     medium().fates().prefetch(node(), arrival.transmission->label.kind, FrameFate::interference);
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
     const double interference_w = interference.worst_w();
@@ -294,7 +294,7 @@ void Radio::update_busy() {
         double energy_w = model_.reception.noise_w;
         busy = energy_w >= model_.energy_detection_w;
         for (const PresentArrival& present : present_.all()) {
-            if (busy) {  // the rest only adds to it
+            if (busy) {  // more arrivals cannot change that
                 break;
             }
             if (!is_candidate(present.transmission)) {

@@ -6,8 +6,8 @@
 //        |   end of the frame      ^  ^                                      |
 //        +-------------------------+  +---- end of the arrival locked on <---+--> LOCKED
 //
-// The radio never locks on to frames of overlapping channels, nor to formats that it does not know.
-// They are noise, and energy that makes the channel busy.
+// The radio does not lock on to frames of overlapping channels or of formats that it does not know.
+// They count as interference, and as energy that makes the channel busy.
 //
 // Half duplex: a frame that starts while the radio transmits is not received, and starting to
 // transmit aborts a reception. Without capture, all other frames are interference while the radio
@@ -22,9 +22,9 @@
 //          |  +--------- PHY header lost, or the end of the arrival (SNIR by chunks: phy/reception.hpp) --+  |
 //          +------------ end of the arrival locked on -------------------------------------------------------+
 //
-// DETECTING does not make the channel busy. The energy of a frame counts only from the end of its
-// detection, since sensing takes as long. Without preamble detection, both arrows to DETECTING lead
-// to LOCKED.
+// In DETECTING, the channel is not busy. The energy of a frame counts only from the end of its
+// detection on, since sensing takes as long. Without preamble detection, both arrows to DETECTING
+// lead to LOCKED.
 #pragma once
 
 #include <memory>
@@ -41,8 +41,8 @@
 
 namespace netsim {
 
-// The side of a MAC that its radio notifies. At the end of a frame, the frame is reported before
-// the channel is free.
+// The side of a MAC that its radio notifies. At the end of a frame, the radio reports the frame
+// first, then the free channel.
 class RadioListener {
 public:
     // Not called after Radio::stop_watching_channel.
@@ -69,7 +69,7 @@ public:
     Radio& operator=(const Radio&) = delete;
 
     void set_listener(RadioListener& listener) { listener_ = &listener; }
-    // The observer of every frame sent and received from now on; none if null.
+    // Sets the observer of all frames sent and received from now on; null for none.
     void set_observer(RadioObserver* observer) {
         observer_ = observer;
         is_observed_ = observer != nullptr;
@@ -79,17 +79,17 @@ public:
     RadioId id() const { return id_; }
 
     // Starts the turnaround to transmit mode: frames that arrive before the end of the next
-    // transmission are not received. Only while not transmitting. A radio without turnaround time
-    // skips it.
+    // transmission are not received. Only while not transmitting. Not needed without a turnaround
+    // time.
     void turn_to_transmit();
-    // Sends a frame now; only while not transmitting.
+    // Sends a frame now. Only while not transmitting.
     void transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
                   SimTime duration);
 
-    // Starts reporting the channel state, including frames that make it busy only together. It is
-    // on at first. A MAC that does not need the state for a while saves much of the cost of a large
-    // network by stopping it. Returns when the channel was last busy, if that is over; long ago if
-    // it never was. Frames that made it busy only together count from `since` on.
+    // Starts reporting the channel state, including frames that make the channel busy only together.
+    // Initially on. In a large network, a MAC saves much time if it stops the reports while it does
+    // not need them. Returns when the channel last became free; long ago if it never did. Frames that
+    // made it busy only together count from `since` on.
     SimTime watch_channel(SimTime since) {
         reports_channel_ = true;
         watches_energy_ = true;
@@ -103,9 +103,9 @@ public:
         }
         watches_energy_ = false;
     }
-    // Reports the channel state again, but ignores frames that make it busy only together.
+    // Reports the channel state again, but without frames that make it busy only together.
     void report_channel() { reports_channel_ = true; }
-    // How far back `since` of watch_channel may be.
+    // Sets how far back `since` of watch_channel may be.
     void remember_channel(SimTime duration) { medium().remember(duration); }
     // At the end of a corrupted frame: whether the other frames on the air are too weak to make the
     // channel busy together.
@@ -122,15 +122,15 @@ public:
 
     bool is_transmitting() const { return transmitting_; }
     bool is_receiving() const { return present_.is_locked(); }
-    // Transmitting, locked on a frame, or noise and all arrivals together reach the energy
-    // detection level.
+    // Whether the radio transmits, is locked on to a frame, or noise and all arrivals together reach
+    // the ED threshold.
     bool is_channel_busy() const { return busy_; }
 
     void arrival_started(const Arrival& arrival) override;
     void arrival_ended(const Arrival& arrival) override;
 
 private:
-    struct Candidate {  // a frame whose beginning is being listened to
+    struct Candidate {  // a frame in preamble detection
         Arrival arrival;
         EventHandle detection;
     };
@@ -138,8 +138,8 @@ private:
     Medium& medium() const { return model_.medium; }
     Simulator& simulator() const { return medium().simulator(); }
     bool detects_preambles() const { return model_.preamble_detection.is_on(); }
-    // With preamble detection, the radio's sums leave out frames that the medium does not know. So
-    // it always watches its energy.
+    // With preamble detection, the radio's sums leave out frames in detection, which the medium does
+    // not know. So the radio always watches its energy.
     bool may_ignore_energy() const { return !detects_preambles(); }
     void begin_reception(const Arrival& arrival);
     std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
@@ -154,7 +154,7 @@ private:
     void end_reception(const Arrival& arrival);
     void end_report();
     double draw() { return RandomStream(model_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
-    // Both draw a random number, and set `cause` only if interference is the cause.
+    // Both draw random numbers, and set `cause` only if the frame was lost to interference.
     FrameFate decide_at_once(const Arrival& arrival, InterferenceSum*& cause);
     FrameFate decide_data(const Arrival& arrival, InterferenceSum*& cause);
     void book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
@@ -173,7 +173,7 @@ private:
     bool transmitting_ : 1 = false;
     bool turned_ : 1 = false;  // turnaround to transmit has started
     bool busy_ : 1 = false;
-    bool reports_ : 1 = false;  // reporting the end of a frame: the channel stays busy until then
+    bool reports_ : 1 = false;  // while it reports the end of a frame: the channel counts as busy
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
     bool reports_channel_ : 1 = true;
@@ -187,10 +187,10 @@ private:
     RadioId id_ = 0;
     double tx_power_w_;
     RadioObserver* observer_ = nullptr;
-    std::shared_ptr<const RadioModel> owned_model_;  // model_ again: keeps it alive
-    Arrival locked_arrival_;             // while locked on; for options that need it before its end
-    std::vector<Candidate> candidates_;  // none without preamble detection
-    EventHandle header_end_;             // SNIR by chunks: pending until the header is decided
+    std::shared_ptr<const RadioModel> owned_model_;  // keeps model_ alive
+    Arrival locked_arrival_;                         // while locked on; set only for options that need it
+    std::vector<Candidate> candidates_;              // empty without preamble detection
+    EventHandle header_end_;                         // SNIR by chunks: pending until the header is decided
 };
 
 }  // namespace netsim

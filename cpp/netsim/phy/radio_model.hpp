@@ -1,5 +1,5 @@
-// What all radios of one configuration in one network share. It is created once and never changed.
-// The transmit power is not part of it, since it often differs from node to node.
+// Data shared by all radios with the same configuration in one network. Created once and never
+// changed. The transmit power is not part of it, since it often differs from node to node.
 //
 // In a large network, the memory that a frame touches at each radio determines the speed. Sharing
 // keeps it small.

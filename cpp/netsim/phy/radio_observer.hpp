@@ -1,5 +1,5 @@
-// Observer of one radio, for capture files. It does not change the run. A radio without one pays
-// one test per frame.
+// Observer of one radio, for capture files. It does not change the run. For a radio without an
+// observer, the cost is one test per frame.
 #pragma once
 
 #include "netsim/medium/arrival.hpp"
@@ -9,10 +9,10 @@ namespace netsim {
 
 class RadioObserver {
 public:
-    // The radio begins to send. Of the fields that the medium fills in, only the start is set.
+    // The radio starts to transmit. Of the fields that the medium fills in, only the start is set.
     virtual void transmitted(const Transmission& transmission) = 0;
-    // A frame ended that the radio was locked on to, decoded or not. `noise_w`: background noise,
-    // without interference.
+    // A frame that the radio was locked on to has ended. `noise_w`: background noise, without
+    // interference.
     virtual void received(const Arrival& arrival, double noise_w, bool decoded) = 0;
 
 protected:

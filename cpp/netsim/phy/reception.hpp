@@ -1,13 +1,13 @@
-// The success probability of a frame that a radio is locked on to. Used by the radio, which draws.
+// The success probability of a frame that a radio is locked on to. The radio draws the outcome.
 //
 // In mode "min", the minimum SNIR of the frame decides. In mode "chunks", the PHY header and the
 // data are decided separately, and each interval between two changes of the interference counts
-// with its own SNIR. With L(snir) the logarithm of the probability that a part survives if all of
-// it has that SNIR,
+// with its own SNIR. If L(snir) is the logarithm of the probability that a part survives with that
+// SNIR throughout,
 //
 //   success of a part = exp Σ (length of interval / length of part) · L(SNIR of interval).
 //
-// Bits fail independently, so this is the product over the intervals. With one interval, it is L,
+// Bits fail independently, so this is the product over the intervals. With one interval, it is e^L,
 // and header and data together have the probability of mode "min". A part (in mode "min": a frame)
 // is lost if its SNIR is at or below the threshold at any time.
 #pragma once
@@ -23,7 +23,7 @@ namespace netsim {
 
 enum class FramePart { header, data };
 
-// When a part of a frame is on the air at a receiver; cut at the frame's end.
+// When a part of a frame arrives at a receiver; limited to the frame's end.
 struct Period {
     SimTime start;
     SimTime end;
@@ -34,17 +34,17 @@ struct ReceptionModel {
     const ErrorModel* errors = nullptr;
     double snir_threshold = 0;
     double noise_w = 0;
-    // Interference from which on every frame is lost, whatever its power.
+    // From this interference on, every frame is lost, regardless of its power.
     double collision_w = std::numeric_limits<double>::infinity();
 
-    // A linear ratio; 0 if the interference destroys every frame.
+    // A linear ratio; 0 if the interference reaches collision_w.
     double snir(const Arrival& arrival, double interference_w) const {
         return interference_w < collision_w ? arrival.power_w / (noise_w + interference_w) : 0;
     }
 
-    // Of the whole frame, in mode "min", with that maximum interference.
+    // Success probability of the whole frame, in mode "min", with that maximum interference.
     double success(const Arrival& arrival, double interference_w) const;
-    // A cheap lower bound for that with any interference up to `max_interference_w`.
+    // A cheap lower bound for the same with any interference up to `max_interference_w`.
     double min_success(const Arrival& arrival, double max_interference_w) const {
         const double snir = this->snir(arrival, max_interference_w);
         return snir > snir_threshold
@@ -53,7 +53,7 @@ struct ReceptionModel {
     }
     // Whether a number drawn from [0, 1) is below `success`. Usually bounds decide that.
     bool survives(double draw, const Arrival& arrival, double interference_w) const;
-    // Of one part, in mode "chunks", with the interference of its period.
+    // Success probability of one part, in mode "chunks", with the interference during its period.
     double success(FramePart part, const Arrival& arrival, InterferenceSum& interference) const;
     double success_undisturbed(FramePart part, const Arrival& arrival) const;
 
