@@ -1,4 +1,4 @@
-// The frame formats that an interface can decode: those of its operation mode.
+// The PPDU formats that an interface can decode: those of its operation mode.
 #pragma once
 
 #include "netsim/config/interface_config.hpp"

@@ -116,11 +116,11 @@ double LinkBudget::success_probability(double power_w) const {
     return error_model_->success_probability(*mode_, power_w / noise_w_, psdu_bytes_);
 }
 
-// In steps of the needed power. So powers derived from it are accurate to half a step, for any
-// fading.
+// Computed in steps of the needed power. So powers derived from the result are accurate to half a
+// step, for any fading.
 std::vector<LinkBudget::Need> LinkBudget::needs() const {
     constexpr double step_db = 0.02;
-    constexpr double far_db = 100;  // beyond this distance from the noise, no probability changes
+    constexpr double far_db = 100;  // at more than this below or above the noise, no probability changes
     constexpr double too_small = 1e-12;
     const double min_w = min_power_w();
     double known = success_probability(min_w);
@@ -179,15 +179,15 @@ double LinkBudget::tx_power_w_for(double range_m, double ratio) const {
                            {"no power reaches ", Quantity{range_m, "m"}, ": even of ",
                             Quantity{largest_tx_power_w, "W"}, ", too little is left there"}});
     }
-    // The ratio never falls with the power: bisection on a logarithmic scale.
+    // The ratio never falls with the power. Bisection on a logarithmic scale.
     double too_weak_w = weakest_w;
     double enough_w = largest_tx_power_w;
     while (enough_w > too_weak_w * (1 + precision)) {
         const double middle_w = std::sqrt(too_weak_w) * std::sqrt(enough_w);
         (ratio_at(middle_w * gain) >= ratio ? enough_w : too_weak_w) = middle_w;
     }
-    // A run may round differently. At a threshold, the last digit decides between all frames and
-    // none.
+    // A run may round differently. At a threshold, the last bit decides whether all frames are
+    // received or none.
     return std::min(enough_w * (1 + precision), largest_tx_power_w);
 }
 

@@ -1,12 +1,12 @@
-// The success probability of one broadcast frame between two nodes over a distance, with no other
-// frame on the air: the average of a run, computed with the run's own models of path loss, noise
-// and errors. Used to find the transmit power for a range.
+// The success probability of one broadcast frame between two nodes at a distance, with no other
+// frame on the air. It is the expected value for a run, computed with the same models of path loss,
+// noise and errors. Used to find the transmit power for a range.
 //
 // If the gain is random, the ratio is the mean over all states of the link. Let s(p) be the success
-// probability at power p without fading, C(x) the probability that the fading is at least x, and q
-// the power that would arrive without fading. The ratio is ∫ C(p / q) ds(p), from the mean of s(x
-// q) by integration by parts. Antennas face each other with their largest gain, without obstacles
-// between them.
+// probability at received power p, C(x) the probability that the fading gain is at least x, and q
+// the received power without fading. The ratio is the mean of s(x q) over x: ∫ C(p / q) ds(p), by
+// integration by parts. Antennas face each other with their largest gain, without obstacles between
+// them.
 #pragma once
 
 #include <cstddef>
@@ -23,41 +23,41 @@ namespace netsim {
 
 class LinkBudget {
 public:
-    // For messages of `payload_bytes` ≥ 0 through wlan[interface] of both. The z of the initial
-    // positions are the heights. Throws ConfigError for a value out of range, a medium without path
-    // loss (UnitDiskRadioMedium), nodes in different bands and a message that does not fit into a
-    // frame.
+    // For messages of `payload_bytes` ≥ 0 through wlan[interface] of both nodes. The z coordinates of
+    // the initial positions are the heights. Throws ConfigError for a value out of range, a medium
+    // without path loss (UnitDiskRadioMedium), a receiver that cannot decode the sender's broadcasts,
+    // and a message that does not fit into a frame.
     LinkBudget(const MediumConfig& medium, const NodeConfig& sender, const NodeConfig& receiver,
                int payload_bytes, std::size_t interface = 0);
 
-    // The share, 0 to 1, of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0.
+    // The fraction, 0 to 1, of frames sent with `tx_power_w` ≥ 0 that are decoded at `distance_m` ≥ 0.
     double reception_ratio(double distance_m, double tx_power_w) const;
 
-    // The least power in W at which the share `ratio` (0 < ratio < 1) is decoded at `range_m`.
-    // Accurate to 0.01 dB if the gain is random, otherwise a few billionths too large, for
-    // rounding. Throws ConfigError for numbers out of range, and if no power suffices.
+    // The least power in W at which the fraction `ratio` (0 < ratio < 1) of frames is decoded at
+    // `range_m` > 0. Accurate to 0.01 dB if the gain is random. Otherwise a few billionths too large,
+    // as a margin for rounding. Throws ConfigError for numbers out of range, and if no power suffices.
     double tx_power_w_for(double range_m, double ratio) const;
 
     double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
     int psdu_bytes() const { return psdu_bytes_; }
-    // The mean received power over the transmitted power.
+    // The ratio of the mean received power to the transmitted power.
     double mean_gain(double distance_m) const;
     // At the receiver, in W.
     double noise_w() const { return noise_w_; }
 
 private:
-    // The power that a share of the frames needs to be decoded.
+    // The power that a fraction `share` of the frames needs to be decoded.
     struct Need {
         double power_w;
         double share;
     };
 
-    // No frame is decoded with less power, regardless of the noise.
+    // The least power with which any frame is decoded.
     double min_power_w() const;
-    // Of a frame that arrives with at least min_power_w().
+    // For a frame that arrives with at least min_power_w().
     double success_probability(double power_w) const;
     std::vector<Need> needs() const;
-    // The part of the mean gain that does not fade.
+    // The gain without fading: antennas and path loss.
     double steady_gain(double distance_m) const;
     // The ratio for frames that would arrive with `power_w` without fading.
     double ratio_at(double power_w) const;
@@ -73,7 +73,7 @@ private:
     std::shared_ptr<const ErrorModel> error_model_;
     const Mode* mode_;
     int psdu_bytes_;
-    std::vector<Need> needs_;  // where the gain is random
+    std::vector<Need> needs_;  // empty if the gain is not random
 };
 
 }  // namespace netsim

@@ -66,7 +66,7 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
 }
 
 std::shared_ptr<const RadioModel> Network::radio_model(RadioConfig config) {
-    // Not part of the model: nodes with different powers share it.
+    // These are not part of the model: nodes with different powers share it.
     config.tx_power_w = 0;
     config.communication_range_m = 0;
     return radio_models_.of(config, [this](const RadioConfig& radio) {
@@ -98,7 +98,8 @@ void Network::check_with_others(const NodeConfig& config, std::size_t index) con
     if (perfect_channel_) {
         return;  // one channel for all center frequencies
     }
-    // Both would receive each frame for the node, and acknowledge it at the same time.
+    // Two radios on one channel would both receive each frame for the node, and acknowledge it at
+    // the same time.
     const double carrier_hz = config.wlan[index].radio.carrier_hz;
     for (std::size_t before = 0; before < index; ++before) {
         if (config.wlan[before].radio.carrier_hz == carrier_hz) {
@@ -133,8 +134,8 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     if (config.type_name == ieee80211_interface) {
         dcf_parameters(config.mac);
     }
-    // 802.11 and 802.15.4 channels never have equal center frequencies, so the user made a mistake.
-    // Neither could decode the frames of the other.
+    // 802.11 and 802.15.4 channels never have equal center frequencies, so this is a mistake of the
+    // user. Neither could decode the frames of the other.
     const auto there = interface_types_.find(radio.carrier_hz);
     if (there != interface_types_.end() && there->second != config.type_name) {
         throw ConfigError(

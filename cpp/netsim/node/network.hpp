@@ -1,8 +1,8 @@
-// A whole simulation: clock, medium, nodes and ledgers. It owns everything and shares nothing with
-// other networks.
+// A whole simulation: clock, medium, nodes and statistics. It owns everything and shares nothing
+// with other networks.
 //
-// Two networks may run interleaved, step by step, in one process. Use: add_node and set_protocol
-// for each node, initialize(), run_until() any number of times, finish(), then read the ledgers.
+// Several networks may run interleaved, step by step, in one process. Use: add_node and set_protocol
+// for each node, initialize(), run_until() any number of times, finish(), then read the statistics.
 #pragma once
 
 #include <cstddef>
@@ -42,61 +42,62 @@ public:
     Network(const Network&) = delete;
     Network& operator=(const Network&) = delete;
 
-    // Nodes get the ids 0, 1, … in the order of adding. The reference is valid as long as the
-    // network. Throws ConfigError for values out of range, and SimulationError after initialize().
+    // Nodes get the ids 0, 1, … in the order of calls. The reference is valid as long as the network.
+    // Throws ConfigError for values out of range, and SimulationError after initialize().
     Node& add_node(const NodeConfig& config);
     // Throws SimulationError for an id without a node.
     Node& node(NodeId id) { return nodes_[place_of(id)]; }
     const Node& node(NodeId id) const { return nodes_[place_of(id)]; }
     std::int32_t node_count() const { return context_.node_count; }
 
-    // Writes the frames that the node's wlan[interface] sends and receives from now on to a pcap
-    // file, until close_captures() or the end of the network. Throws ConfigError for a path that
-    // cannot be written, an interface that does not exist or is captured already, and the unit disk
-    // medium, which has no radios.
+    // Captures the frames that the node's wlan[interface] sends and receives from now on in a pcap
+    // file, until close_captures() or the destruction of the network. Throws ConfigError for a path
+    // that cannot be written, an interface that does not exist or is captured already, and the unit
+    // disk medium, which has no radios.
     void capture(NodeId node, const std::string& path, std::int32_t interface = 0);
-    // Completes the capture files. Throws SimulationError, after all are closed, if one could not
-    // be written.
+    // Closes the capture files. Throws SimulationError, after all are closed, if one could not be
+    // written.
     void close_captures();
 
-    // Records the run from now on, for a replay: the paths of all nodes, and all that happens at the
-    // `recorded` ones. To be called when all nodes exist, before initialize(). Throws SimulationError
+    // Records the run for a replay: the paths of all nodes, and the frames, variables and events of
+    // the `recorded` ones. Call it when all nodes exist, before initialize(). Throws SimulationError
     // for an id without a node.
     ReplayRecorder& record(const std::vector<NodeId>& recorded);
 
-    // Calls the protocols' initialize at time 0, in the order of ids. Throws the errors of their
-    // check before that, and SimulationError at the second call.
+    // Calls the protocols' check, then their initialize at time 0, in the order of ids. Throws
+    // ConfigError if a check fails, and SimulationError on the second call.
     void initialize();
-    // Runs the events up to and including `limit`. False if `max_events` ran before that. No effect
-    // if `limit` is in the past.
+    // Runs the events up to and including `limit`. Returns false if `max_events` ran before that. No
+    // effect if `limit` is in the past.
     bool run_until(SimTime limit, std::uint64_t max_events = ~std::uint64_t{0}) {
         check_runs("run_until");
         return simulator_.run_until(limit, max_events);
     }
-    // Runs one event, if there is one up to and including `limit`. Otherwise returns false; the
-    // clock stays.
+    // Runs one event, if there is one up to and including `limit`. Otherwise returns false and leaves
+    // the clock unchanged.
     bool step(SimTime limit) {
         check_runs("step");
         return simulator_.step(limit);
     }
-    // Schedules `call` as an event at `time`, after those scheduled for that time so far. Its
-    // exceptions leave run_until. Throws SimulationError for a time in the past.
+    // Schedules `call` as an event at `time`, after the events scheduled for that time so far. Its
+    // exceptions propagate out of run_until. Throws SimulationError for a time in the past.
     void schedule(SimTime time, std::function<void()> call);
     // Calls the protocols' finish in the order of ids, if they were initialized, and closes the
     // captures. Ends the run: later calls throw SimulationError, including a second finish.
     void finish();
-    // Destroys the protocols and scheduled calls, which may own more than memory: a Python object
-    // that refers to its node.
+    // Destroys the protocols and scheduled calls. They may own Python objects that refer to the
+    // network, which would keep it alive.
     void release_protocols();
 
     SimTime now() const { return simulator_.now(); }
-    // The node whose protocol is called now; NetworkContext::no_node outside of calls.
+    // The node whose protocol is running, or was running when it threw an exception; otherwise
+    // NetworkContext::no_node.
     NodeId active_node() const { return context_.active_node; }
     std::uint64_t event_count() const { return simulator_.event_count(); }
     std::size_t pending_count() const { return simulator_.pending_count(); }
     std::uint64_t fingerprint() const { return fingerprint_.value(); }
     const FrameFates& frame_fates() const { return frame_fates_; }
-    // The sum over all interfaces. Of one: node(0).interfaces()[1]->message_fates().
+    // The sum over all interfaces. For one of them: node(0).interfaces()[1]->message_fates().
     MessageFateSums message_fates() const;
     const MessageDelays& message_delays() const { return context_.message_delays; }
 
@@ -104,8 +105,8 @@ private:
     std::size_t place_of(NodeId node) const;
     void check_runs(const char* call) const;
     void check_not_finished(const char* call) const;
-    // What nodes of one configuration share, created for the first of them. Both throw ConfigError
-    // for invalid values.
+    // Objects shared by nodes with the same configuration, created for the first of them. Both throw
+    // ConfigError for invalid values.
     std::shared_ptr<const RadioModel> radio_model(RadioConfig config);
     std::shared_ptr<const DcfParameters> dcf_parameters(const MacConfig& config);
     void check_with_medium(const NodeConfig& config);
@@ -122,12 +123,12 @@ private:
     NetworkContext context_{simulator_, fingerprint_};
     FrameFates frame_fates_;
     bool perfect_channel_;
-    std::string timing_;  // of a perfect channel
+    std::string timing_;  // MediumConfig::timing, for a perfect channel
     Medium medium_;
     UnitDiskChannel unit_disk_;
     SharedModels<RadioConfig, RadioModel> radio_models_;
     SharedModels<MacConfig, DcfParameters> dcf_parameters_;
-    std::deque<Radio> radios_;                       // by interface
+    std::deque<Radio> radios_;                       // sorted by interface id
     std::deque<LinkType> link_types_;                // of the radios
     std::map<double, std::string> interface_types_;  // {center frequency in Hz: type of the interfaces there}
     std::map<InterfaceId, RadioCapture> captures_;

@@ -1,5 +1,5 @@
-// What the nodes of one network share: its clock, the number of nodes, and statistics over all of
-// them.
+// State shared by the nodes of one network: its clock, the number of nodes, and statistics over all
+// of them.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct NetworkContext {
     MessageDelays message_delays{};
     PayloadPadding padding{};
     std::int32_t node_count = 0;
-    NodeId active_node = no_node;        // the one whose protocol runs now
+    NodeId active_node = no_node;        // the node whose protocol is running
     ReplayRecorder* recorder = nullptr;  // if the run is recorded
 };
 

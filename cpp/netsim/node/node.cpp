@@ -11,7 +11,7 @@ namespace netsim {
 
 namespace {
 
-constexpr std::uint64_t timer_word = 0x74696D6572;  // in the fingerprint, marks timers
+constexpr std::uint64_t timer_word = 0x74696D6572;  // "timer"; marks timers in the fingerprint
 
 }  // namespace
 

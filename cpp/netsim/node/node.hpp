@@ -1,4 +1,4 @@
-// One node: its protocol above, its mobility and network interfaces below.
+// A node: its protocol, its mobility and its network interfaces.
 #pragma once
 
 #include <cstddef>
@@ -34,28 +34,27 @@ public:
     const Trajectory& trajectory() const { return mobility_->trajectory(); }
     const Attitude& attitude() const { return attitude_; }
 
-    // Wiring, before the run: the interfaces, wlan[0] first, and the protocol that gets their
+    // Setup before the run: the interfaces, wlan[0] first, and the protocol that receives their
     // messages, if any.
     void add_interface(std::unique_ptr<NetworkInterface> interface);
     void set_protocol(std::unique_ptr<Protocol> protocol);
     Protocol* protocol() { return protocol_.get(); }
     const std::vector<std::unique_ptr<NetworkInterface>>& interfaces() const { return interfaces_; }
 
-    // Sets callbacks for each telemetry, called before the protocol, and for the tracked variables
-    // of a native protocol. Either may be null.
+    // Sets a callback for each telemetry, called before the protocol, and one for the tracked
+    // variables of a native protocol. Either may be null.
     using OnTelemetry = std::function<void(const Position& position)>;
     void observe(OnTelemetry on_telemetry, TrackedVariables::OnSet on_variable);
 
-    // Life cycle, driven by the Network. A SimulationError of the protocol comes out as a
-    // ProtocolError.
+    // Life cycle, driven by the Network. Errors of the protocol's callbacks become ProtocolErrors.
     void check_protocol() const;
     void initialize();
-    // Starts to move, if its mobility follows a given path.
+    // Starts the motion, if the mobility follows a given path.
     void begin_path();
     void report_position();
     void finish();
 
-    // Queries that a protocol may make also before the run.
+    // Queries that are also allowed before the run.
     std::int32_t node_count() const { return context_.node_count; }
     bool can_move() const { return mobility_->can_move(); }
 
@@ -66,8 +65,8 @@ public:
     void send(NodeId destination, Payload payload, std::int32_t interface = 0);
     void go_to(Position target);
     void set_speed(double speed_mps);
-    // At `time`, not before now. The same name may be pending several times. An endless loop at one
-    // instant is an error.
+    // `time` must not be in the past. The same name may be pending several times. Also throws for an
+    // endless loop at one instant.
     void schedule_timer(std::string timer, SimTime time);
     // Cancels all pending timers of that name, if any.
     void cancel_timer(const std::string& timer);
@@ -75,9 +74,9 @@ public:
     std::size_t longest_message_bytes() { return interface_at(0).longest_message_bytes(); }
     // The protocol's own random numbers: IProvider.random in Python.
     RandomStream& random() { return random_; }
-    // A string of that many octets for messages without content, shared between nodes.
+    // A string of `bytes` octets for messages without content, shared between nodes.
     Payload padding(std::int64_t bytes) { return context_.padding.of(static_cast<std::size_t>(bytes)); }
-    // Values for the results of the run; they outlive the protocol.
+    // Values for the results of the run. They outlive the protocol.
     TrackedVariables& tracked_variables() { return tracked_variables_; }
     const TrackedVariables& tracked_variables() const { return tracked_variables_; }
 
@@ -86,7 +85,7 @@ private:
     void send_through(std::int32_t interface, NodeId destination, Payload payload);
     template <typename Call>
     void call_protocol(const char* callback, const Call& call);
-    // The event of a timer.
+    // Action of the event when a timer is due.
     struct TimerDue {
         Node* node;
         std::size_t number;
@@ -95,7 +94,7 @@ private:
         void prefetch(int step) const { node->prefetch_for_timer(step); }
     };
     void timer_due(std::size_t number);
-    // Prefetches what sending reads, too: most timers send.
+    // Also prefetches what sending reads, since most timers send.
     void prefetch_for_timer(int step) const;
 
     // The members that every timer reads come first: one cache line.

@@ -1,7 +1,7 @@
-// A hash of the string of a message, for the fingerprint of the run.
+// A hash of the payload of a message, for the fingerprint of the run.
 //
 // All receivers of a broadcast get the same string, usually one right after the other. So the hash
-// is computed for the first of them only. Shared by the nodes of one network.
+// is computed only for the first of them. Shared by the nodes of one network.
 #pragma once
 
 #include <cstdint>

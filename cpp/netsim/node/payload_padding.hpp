@@ -1,7 +1,7 @@
 // Padding for messages without content: a string of a given size, shared by all calls for the same
 // size.
 //
-// In a large network, a separate string per node would be in no cache when it is sent. Shared by
+// In a large network, a separate string per node would not be in a cache when it is sent. Shared by
 // the nodes of one network.
 #pragma once
 

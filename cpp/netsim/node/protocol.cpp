@@ -8,7 +8,7 @@ namespace netsim {
 
 namespace {
 
-constexpr std::uint64_t packet_word = 0x7061636B6574;  // in the fingerprint, marks packets
+constexpr std::uint64_t packet_word = 0x7061636B6574;  // "packet"; marks packets in the fingerprint
 
 }  // namespace
 

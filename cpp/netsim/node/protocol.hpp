@@ -1,9 +1,9 @@
-// The contract of a protocol in C++: the same five events as in Python.
+// The interface of a protocol in C++: the same five callbacks as in Python.
 //
 // A protocol reacts to events and acts through its Node (send, go_to, schedule_timer, …). The
 // Python proxy is one implementation; native protocols, in protocols/, are others. An exception
 // thrown by a callback ends the run. A std::runtime_error (such as SimulationError) or
-// std::logic_error becomes nested in a ProtocolError; others pass unchanged.
+// std::logic_error is nested in a ProtocolError; others propagate unchanged.
 #pragma once
 
 #include <string>
@@ -30,20 +30,20 @@ public:
     virtual void handle_timer(const std::string& timer) = 0;
     // A message for this node arrived.
     virtual void handle_packet(const Payload& message) = 0;
-    // The current position of the node; every telemetry interval.
+    // Once per telemetry interval, with the current position of the node.
     virtual void handle_telemetry(const Position& position) = 0;
     // Once, at the end of the run, in the order of node ids.
     virtual void finish() = 0;
 
-    // A timer will be due soon: may prefetch what the handler reads (kernel/prefetch.hpp). The
-    // first two lines of the protocol itself are prefetched already.
+    // A timer will be due soon: may prefetch what the handler reads (kernel/prefetch.hpp). The first
+    // two cache lines of the protocol itself are prefetched already.
     virtual void prefetch() const {}
 
 private:
     friend class Node;  // sets context_ and node_
 
-    // Called directly by the interface. It records the message here, without reading the node: that
-    // saves a cache line in a large network.
+    // Called directly by the interface. The message is recorded here and not by the node, which saves
+    // a cache line in a large network.
     void message_received(const Frame& frame) final;
 
     NetworkContext* context_ = nullptr;

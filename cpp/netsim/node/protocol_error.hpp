@@ -1,4 +1,4 @@
-// An error of a protocol in C++ during a run, with node, callback and time for the message.
+// An error of a C++ protocol during a run, with node, callback and time for the error message.
 #pragma once
 
 #include <exception>
@@ -28,7 +28,7 @@ private:
 };
 
 // Calls one of a protocol's methods. A std::runtime_error (such as SimulationError) or
-// std::logic_error becomes nested in a ProtocolError; others pass unchanged.
+// std::logic_error is nested in a ProtocolError; others propagate unchanged.
 template <typename Call>
 void call_of_protocol(const char* callback, NodeId node, SimTime now, const Call& call) {
     try {

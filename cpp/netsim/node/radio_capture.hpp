@@ -1,11 +1,12 @@
 // Writes the frames that one radio sent and received to a capture file.
 //
-// A frame's time stamp is its start at this radio: of sending, or of the arrival of its first bit.
-// The file has the frames that the radio sent, and those that it was locked on to until their end.
-// It does not have frames that were too weak, or that the radio missed while transmitting or locked
-// on to another one. So time stamps never fall, although a reception is written at its end.
+// A frame's time stamp is its start at this radio: of the transmission, or of the arrival of its
+// first bit. The file has the frames that the radio sent, and those that it was locked on to until
+// their end. It does not have frames that were too weak, or that the radio missed while transmitting
+// or locked on to another one. So time stamps never decrease, although a reception is written at its
+// end.
 //
-// 802.15.4 frames have no header with their power.
+// 802.15.4 frames do not have a header with their power.
 #pragma once
 
 #include <string>

@@ -14,13 +14,13 @@ namespace netsim {
 namespace {
 
 constexpr SimTime longest_chunk = SimTime::from_us(60'000'000);
-constexpr std::size_t most_frames = 20'000;  // in a chunk
-constexpr std::size_t most_rows = 1'000'000;
+constexpr std::size_t max_frames = 20'000;  // in a chunk
+constexpr std::size_t max_rows = 1'000'000;
 constexpr SimTime density_bin = SimTime::from_us(250'000);
 constexpr SimTime sampling_interval = SimTime::from_us(200'000);
-constexpr std::size_t most_causes = 10'000;
+constexpr std::size_t max_causes = 10'000;
 
-// In tables.py: BELOW_SENSITIVITY and NO_POWER.
+// BELOW_SENSITIVITY and NO_POWER in tables.py.
 constexpr std::uint8_t no_longer_noticed = 255;
 constexpr std::int16_t no_power = std::numeric_limits<std::int16_t>::min();
 
@@ -28,6 +28,7 @@ constexpr std::uint64_t ns(SimTime time) {
     return static_cast<std::uint64_t>(std::max(time, SimTime{}).ps() / 1000);
 }
 
+// In 0.01 dBm.
 std::int16_t cdbm(double power_w) {
     if (power_w <= 0) {
         return no_power;
@@ -87,7 +88,7 @@ CauseId ReplayRecorder::cause_of(const std::string& text) {
     if (known != cause_ids_.end()) {
         return known->second;
     }
-    if (causes_.size() == most_causes) {
+    if (causes_.size() == max_causes) {
         return 0;
     }
     causes_.push_back(text);
@@ -267,7 +268,7 @@ void ReplayRecorder::count(const OpenFrame& frame) {
     }
 }
 
-// Writes where the receptions differ from those of the last frame of that sender. Both are sorted.
+// Writes the receptions that differ from those of the sender's last frame. Both are sorted.
 void ReplayRecorder::write_changes(OpenFrame& frame, std::uint32_t number) {
     std::vector<std::vector<Reception>>& heard_by = nodes_[frame.row.node].heard_by;
     if (heard_by.size() <= frame.row.interface) {
@@ -293,10 +294,10 @@ void ReplayRecorder::write_changes(OpenFrame& frame, std::uint32_t number) {
 }
 
 void ReplayRecorder::begin_row() {
-    const bool is_full = frames_.size() >= most_frames || receptions_.size() + events_.size() +
-                                                                  variables_.size() + legs_.size() -
-                                                                  std::min(legs_.size(), nodes_.size()) >=
-                                                              most_rows;
+    const bool is_full = frames_.size() >= max_frames || receptions_.size() + events_.size() +
+                                                                 variables_.size() + legs_.size() -
+                                                                 std::min(legs_.size(), nodes_.size()) >=
+                                                             max_rows;
     if (now() - chunk_start_ >= longest_chunk || is_full) {
         close_chunk();
     }
@@ -306,7 +307,7 @@ void ReplayRecorder::close_chunk() {
     ReplayChunk chunk;
     chunk.start = chunk_start_;
     chunk.end = now();
-    string("");  // also if nothing needed one
+    string("");  // string 0 exists, even if no other string does
     chunk.strings = std::exchange(strings_, {});
     string_ids_.clear();
     chunk.tables = {

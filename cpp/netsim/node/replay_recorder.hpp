@@ -1,13 +1,13 @@
-// Records what happens in a network, for a replay: frames with the fate of each reception, paths,
-// tracked variables and events of protocols.
+// Records a run for a replay: frames with the outcome of each reception, paths, tracked variables
+// and events of protocols.
 //
-// The record grows in tables of rows. From time to time they are closed as a chunk, which the user
-// takes and stores, so that memory does not grow with simulated time. The columns are declared in
-// python/gradysim/replay/tables.py, too; a test compares them.
+// The recorder adds rows to tables. From time to time, it closes them as a chunk, which the caller
+// takes and stores, so that memory does not grow with simulated time. The columns are also declared
+// in python/gradysim/replay/tables.py; a test compares them.
 //
-// A frame is written when its last reception has ended, and all earlier frames are written. Of its
-// receptions, only those are written that differ from the last frame of the same sender: most
-// receivers decode frame after frame.
+// A frame is written when its last reception has ended and all earlier frames are written. Only
+// receptions that differ from those of the sender's last frame are written: most receivers decode
+// frame after frame.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@
 
 namespace netsim {
 
-// What a chunk consists of: columns as little-endian octets.
+// A closed part of the record: columns as little-endian octets.
 struct ReplayChunk {
     struct Column {
         std::string name;
@@ -39,7 +39,7 @@ struct ReplayChunk {
         std::string name;
         std::vector<Column> columns;
     };
-    struct Density {  // counts of successive intervals
+    struct Density {  // [bin]: counts in successive time bins
         SimTime bin;
         std::vector<std::uint32_t> frames;
         std::vector<std::uint32_t> lost;
@@ -60,26 +60,28 @@ struct ReplayChunk {
 
 class ReplayRecorder final : public FrameObserver {
 public:
-    // Of log lines: their level.
+    // A log line has its level as its kind.
     enum class EventKind : std::uint8_t { timer, command, debug, info, warning, error };
 
     explicit ReplayRecorder(const Simulator& simulator) : simulator_(simulator) {}
     ReplayRecorder(const ReplayRecorder&) = delete;
     ReplayRecorder& operator=(const ReplayRecorder&) = delete;
-    // Nodes are added in the order of their ids. `is_recorded`: frames that it sends or notices, and
-    // its variables and events. The path of every node is recorded.
+    // Add nodes in the order of their ids. `is_recorded`: whether to record the frames that the node
+    // sends or notices, and its variables and events. The path of every node is recorded.
     void add_node(const Trajectory& trajectory, bool is_recorded);
 
-    // Records the path of a node by its positions in intervals, not by its legs, which are many.
+    // Records the path of a node as periodic positions, for a node with very many legs.
     void sample_path(NodeId node) { nodes_.at(node).is_sampled = true; }
 
-    // A callback of a node's protocol begins: the cause of what it sends. A timer is an event, too.
+    // A callback of a protocol begins. It is the cause of the messages that it sends.
     void callback_begins(const char* callback) {
         callback_ = callback;
         timer_ = nullptr;
     }
-    // After callback_begins. `timer` must live as long as the callback.
+    // Records a timer as an event and as the cause. Call it after callback_begins. `timer` must live
+    // as long as the callback.
     void timer_due(NodeId node, const std::string& timer);
+    // The id of the current cause; 0 if there are too many causes.
     CauseId cause();
 
     void course_changed(NodeId node);
@@ -91,11 +93,11 @@ public:
     void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) override;
     void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) override;
 
-    // Closes the chunk now. Frames with receptions in progress go to the next one.
+    // Closes the chunk now. Frames with receptions in progress go to the next chunk.
     void close_chunk();
     // At the end of the run: closes the last chunk, with the frames that are on the air.
     void finish();
-    // Gives the chunks that are closed.
+    // Returns the closed chunks and forgets them.
     std::vector<ReplayChunk> take() { return std::exchange(chunks_, {}); }
 
 private:
@@ -151,13 +153,13 @@ private:
         std::uint32_t text = 0;
     };
 
-    // A reception in 32 bits, sorted by receiver.
+    // A reception in 32 bits, which sorts by receiver.
     using Reception = std::uint32_t;
     static Reception reception_of(NodeId receiver, FrameFate fate) {
         return static_cast<Reception>(receiver) << 8 | static_cast<Reception>(fate);
     }
 
-    // A frame on the air, or one behind it.
+    // A frame that is still on the air, or that waits for an earlier one.
     struct OpenFrame {
         FrameRow row;
         std::uint64_t left = 0;  // receptions that have not ended
@@ -177,7 +179,7 @@ private:
     };
 
     SimTime now() const { return simulator_.now(); }
-    // Closes the chunk if it is long enough; before each row.
+    // Closes the chunk if it is large enough. Call it before each row.
     void begin_row();
     void write_complete_frames();
     void write(OpenFrame& frame);

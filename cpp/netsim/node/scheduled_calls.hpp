@@ -1,4 +1,4 @@
-// Calls that the user of a network scheduled as events, besides those of its nodes.
+// Calls that the user of a network schedules as events.
 //
 // The kernel's actions hold only pointers and numbers. Callables that own something (a Python
 // object) are kept here until they run or are dropped.
@@ -19,7 +19,7 @@ public:
     ScheduledCalls(const ScheduledCalls&) = delete;
     ScheduledCalls& operator=(const ScheduledCalls&) = delete;
 
-    // `time` must not be in the past. Exceptions of `call` leave Simulator::run_until.
+    // `time` must not be in the past. Exceptions of `call` propagate out of Simulator::run_until.
     void add(SimTime time, std::function<void()> call) {
         std::size_t number = calls_.size();
         if (free_.empty()) {

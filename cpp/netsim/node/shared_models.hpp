@@ -20,10 +20,10 @@ public:
         if (known != latest_.end()) {
             return known->model;
         }
-        // A few suffice for groups of nodes, and are fast to search if each node has its own
-        // configuration.
-        constexpr std::size_t most = 16;
-        if (latest_.size() == most) {
+        // A few suffice for groups of nodes. If each node has its own configuration, searching a few
+        // is fast.
+        constexpr std::size_t max_size = 16;
+        if (latest_.size() == max_size) {
             latest_.pop_back();
         }
         latest_.push_front({config, make(config)});

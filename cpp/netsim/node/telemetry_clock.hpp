@@ -1,9 +1,9 @@
 // The periodic telemetry of all nodes with the same interval.
 //
-// It ticks at every multiple of the interval after its start, and then reports its position to each
-// node, in the order of ids. A tick is scheduled one interval ahead, but its telemetry only at the
-// tick, as in prototype mode. So telemetry comes after the timers that were set for the same
-// instant before.
+// It ticks at every multiple of the interval after its start, and then reports to each node its
+// position, in the order of ids. A tick is scheduled one interval ahead, but its telemetry only at
+// the tick, as in prototype mode. So telemetry comes after timers that were set for that instant
+// before it.
 #pragma once
 
 #include <utility>

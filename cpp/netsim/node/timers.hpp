@@ -1,4 +1,4 @@
-// The pending timers of one node, by name. Several of one name may be pending.
+// The pending timers of one node. Several timers with the same name may be pending.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ public:
     }
     void set_event(std::size_t number, EventHandle event) { timers_[number].event = event; }
 
-    // Removes a timer because it is due.
+    // Removes a timer that is due, and returns its name.
     std::string take(std::size_t number) {
         release(number);
         return std::move(timers_[number].name);
@@ -58,7 +58,7 @@ private:
         std::string name;
         EventHandle event;
         bool pending = false;
-        Place next_free = none;  // next in the list of free places
+        Place next_free = none;  // next in the free list
     };
 
     void release(std::size_t number) {
@@ -67,7 +67,7 @@ private:
     }
 
     std::vector<Timer> timers_;
-    Place first_free_ = none;  // released last
+    Place first_free_ = none;  // head of the free list: released last
 };
 
 }  // namespace netsim

@@ -15,11 +15,11 @@ using TrackedValue = std::variant<bool, std::int64_t, double, std::string>;
 
 class TrackedVariables {
 public:
-    // Called for each assignment, also of an equal value.
+    // Called for each assignment, even if the value does not change.
     using OnSet = std::function<void(std::string_view name, const TrackedValue& value)>;
 
     void observe(OnSet on_set) { on_set_ = std::move(on_set); }
-    // A new variable is appended. Linear search: there are few.
+    // Sets a variable, or appends a new one. Linear search: there are few.
     void set(std::string_view name, TrackedValue value) {
         if (on_set_) {
             on_set_(name, value);
