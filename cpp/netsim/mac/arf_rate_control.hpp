@@ -1,11 +1,11 @@
 // ARF and AARF: one step faster after consecutive successes, one step slower after consecutive
 // failures.
 //
-// The first attempt at a faster rate is a probe: if it fails, the rate falls at once. AARF then
-// also requires more successes before the next probe. So a station at its best rate makes few
-// futile probes. A decrease after consecutive failures, due to a worse channel, resets that number.
-// A faster rate is also tried if `interval` passed since the last change. So a station with few
-// frames recovers, too.
+// The first attempt at a faster rate is a probe: if it fails, the rate falls at once. AARF then also
+// requires more successes before the next probe. So a station at its best rate makes few futile
+// probes. A decrease after consecutive failures means that the channel got worse, and resets that
+// number. A faster rate is also tried when `interval` has passed since the last change, so that a
+// station with few frames recovers, too.
 //
 // The rates are those of the operation mode by bitrate. In g(mixed), OFDM and CCK rates alternate,
 // and a faster one may be more robust than a slower one.
@@ -29,7 +29,7 @@ public:
         SimTime interval;
         int increase_threshold;  // successes
         int decrease_threshold;  // failures
-        // AARF only. The defaults have no effect.
+        // For AARF. The defaults have no effect.
         double increase_threshold_factor = 1;
         int max_increase_threshold = 1;
     };
@@ -44,7 +44,7 @@ public:
 private:
     struct Link {
         std::size_t mode = 0;
-        SimTime changed;  // also by a decrease from the slowest mode, which changes only this
+        SimTime changed;  // last change, or attempt to change beyond the fastest or slowest mode
         int increase_threshold = 1;
         int successes = 0;  // in a row
         int failures = 0;   // in a row

@@ -7,7 +7,7 @@ namespace netsim {
 
 namespace {
 
-// The remainder of each octet, bits reversed as they are on the air.
+// The remainder of each octet, with reversed bits: the least significant bit is sent first.
 constexpr std::array<std::uint32_t, 256> remainders = [] {
     constexpr std::uint32_t polynomial = 0xedb88320;
     std::array<std::uint32_t, 256> table{};
@@ -33,7 +33,7 @@ std::uint32_t frame_check_sequence(std::span<const std::uint8_t> octets) {
 
 // Bit by bit: frames are short, and only capture files need it.
 std::uint16_t narrowband_check_sequence(std::span<const std::uint8_t> octets) {
-    constexpr std::uint32_t polynomial = 0x8408;  // bits reversed as they are on the air
+    constexpr std::uint32_t polynomial = 0x8408;  // reversed bits, as above
     std::uint32_t remainder = 0;
     for (const std::uint8_t octet : octets) {
         remainder ^= octet;

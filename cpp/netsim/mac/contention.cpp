@@ -8,11 +8,11 @@ namespace netsim {
 
 namespace {
 
-// A frame that begins this shortly before the end of a slot cannot be sensed by then, and does not
-// prevent a grant. Real sensing takes microseconds; this only compensates for the rounding to
-// picoseconds. It matters for stations on a line that drew the same number: the frame of one
-// reaches the next just when the slot of the latter ends.
-constexpr SimTime unnoticed = SimTime::from_ns(1);
+// A frame that begins within this time before the end of a slot cannot be sensed by then, and does
+// not prevent the grant. Real sensing takes microseconds; this only compensates for rounding to
+// picoseconds. It matters for stations on a line that drew the same backoff: the frame of one
+// reaches the next station just when its slot ends.
+constexpr SimTime min_sensing = SimTime::from_ns(1);
 
 }  // namespace
 
@@ -49,10 +49,10 @@ void Contention::channel_busy_changed(bool busy) {
         }
         return;
     }
-    if (state_ == State::waiting && grant_time_ - simulator().now() > unnoticed) {
+    if (state_ == State::waiting && grant_time_ - simulator().now() > min_sensing) {
         simulator().cancel(grant_);
         state_ = State::deferring;
-        // A partial slot counts as not waited; the interframe space does not count as slots.
+        // A partial slot does not count down, and neither does the interframe space.
         const std::int64_t remaining_ps = (grant_time_ - simulator().now()).ps();
         const std::int64_t slot_ps = parameters_.timing.slot.ps();
         slots_left_ = std::min(slots_left_, static_cast<int>((remaining_ps + slot_ps - 1) / slot_ps));

@@ -1,4 +1,4 @@
-// Contention of one station for the channel: interframe space and backoff, also called channel
+// Contention of one station for the channel: interframe space and backoff. Also known as channel
 // access function.
 //
 //   IDLE --start, channel free--> WAITING --time is up--> IDLE, and the channel is granted
@@ -7,21 +7,21 @@
 //                             v    v   |
 //                             DEFERRING
 //
-// Every wait is DIFS (EIFS after a corrupted frame) + backoff · slot. Immediate access
-// (`backoff_optimization`): time before `start` in which the channel was free and this station idle
-// counts towards the wait. So a frame leaves at once if the channel was idle for long enough.
+// Every wait takes DIFS (EIFS after a corrupted frame) + backoff · slot. With immediate access
+// (`backoff_optimization`), the time before `start` in which the channel was free and this station
+// idle counts toward the wait. So a frame is sent at once if the channel was free for long enough.
 // Before the run, the channel counts as busy, unless `initial_channel_busy` is off.
 //
-// EIFS follows IEEE 802.11-2020, 10.3.2.3.7: at every station, from the moment the radio finds the
-// channel free after a corrupted frame, until a frame is received correctly. With `inet_eifs`, it
-// follows INET's rules: only at a station that waits for the channel, from the end of the corrupted
-// frame on. There, a correct frame does not end it, and a busy period that ends within it is
-// followed by a whole EIFS. With `ns3_eifs`, it begins at the end of the corrupted frame, too, even if
-// others still make the channel busy, and the rest is the standard's.
+// EIFS follows IEEE 802.11-2020, 10.3.2.3.7: at every station, it begins when the radio finds the
+// channel free after a corrupted frame, and ends early if a frame is received correctly. With
+// `inet_eifs`, it follows INET's rules: it applies only at a station that waits for the channel, and
+// begins at the end of the corrupted frame. A correct frame does not end it, and a busy period that
+// ends within it is followed by a whole EIFS. With `ns3_eifs`, it also begins at the end of the
+// corrupted frame, even if other frames still make the channel busy. The rest is as in the standard.
 //
-// Two stations whose slots end at the same instant both transmit and collide: neither can have
-// sensed the other by then. A grant is the last event of its instant, so that it sees all other
-// events of that instant.
+// Two stations whose slots end at the same instant both transmit and collide: neither can sense the
+// other in time. A grant is the last event of its instant, so that it sees all other events of that
+// instant.
 #pragma once
 
 #include <algorithm>
@@ -55,15 +55,15 @@ public:
     // Draws a backoff of 0 … contention_window slots and waits for the channel. Call it only if no
     // wait is in progress.
     void start(int contention_window);
-    // The same without a backoff if the channel is free now: waits DIFS from now on, for any earlier
-    // idle time. If it becomes busy in the meantime, DIFS after that.
+    // The same, but without a backoff if the channel is free now: waits DIFS from now on, however
+    // long it was free before. If it becomes busy meanwhile, waits DIFS after that.
     void start_without_backoff_if_free(int contention_window);
     bool in_progress() const { return state_ != State::idle; }
 
-    // The channel became busy (by the radio or the NAV) or free. Call it for changes only; optional
-    // in state idle.
+    // The channel became busy (by the radio or the NAV) or free. Call it only for changes. Optional
+    // while no wait is in progress.
     void channel_busy_changed(bool busy);
-    // The state of the channel after a time without reports: busy, or free since `free_since`.
+    // Sets the state of the channel after a time without reports: busy, or free since `free_since`.
     void channel_found(bool busy, SimTime free_since) {
         NETSIM_ASSERT(!in_progress());
         busy_ = busy;
@@ -72,9 +72,9 @@ public:
         }
     }
     bool finds_channel_busy() const { return busy_; }
-    // From frame_corrupted until radio_finds_it_free.
+    // Whether a corrupted frame will start EIFS when the radio finds the channel free.
     bool awaits_end_of_broken_frame() const { return broken_frame_; }
-    // A frame was corrupted; the radio still finds the channel busy with it.
+    // A frame was corrupted. The radio still finds the channel busy.
     void frame_corrupted() {
         if (parameters_.config.ns3_eifs || (parameters_.config.inet_eifs && in_progress())) {
             eifs_until_ = simulator().now() + parameters_.timing.eifs;
@@ -111,7 +111,7 @@ private:
     ContentionListener& listener_;
     State state_ = State::idle;
     bool busy_ = false;
-    bool broken_frame_ = false;  // since the radio found the channel busy
+    bool broken_frame_ = false;  // a frame was corrupted since the radio found the channel busy
     int slots_left_ = 0;
     SimTime free_since_;
     SimTime eifs_until_ = SimTime::long_ago();

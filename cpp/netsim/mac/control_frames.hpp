@@ -2,8 +2,8 @@
 //
 //   RTS --SIFS-- CTS --SIFS-- data --SIFS-- ACK
 //
-// Each announces the time from its own end to the end of the ACK, so that stations that hear any of
-// them stay silent.
+// Each frame announces the time from its own end to the end of the ACK, so that stations that receive
+// any of them stay silent.
 //
 // Source: IEEE 802.11-2020, 9.2.5 (duration fields), 9.3.1 (formats of control frames).
 #pragma once

@@ -56,7 +56,7 @@ void CsmaCa802154::go_on() {
 }
 
 // The ends of backoff and assessment are the last events of their instants, so that they see all
-// other events of these.
+// other events of the same instant.
 void CsmaCa802154::back_off() {
     state_ = State::backing_off;
     const SimTime begin = std::max(simulator_.now(), earliest_wait_);

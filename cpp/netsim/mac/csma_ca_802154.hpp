@@ -1,8 +1,8 @@
 // An 802.15.4 device in a network without beacons: unslotted CSMA/CA.
 //
-// It sends the frames of its queue one by one: random backoff, clear channel assessment,
-// turnaround, transmission. If an ACK is requested, it repeats the frame until one comes. It
-// acknowledges received frames and drops duplicates.
+// It sends the frames of its queue one by one: random backoff, clear channel assessment (CCA),
+// turnaround, transmission. If an ACK is requested, it retries until it receives one, up to a limit.
+// It acknowledges received frames and drops duplicates.
 //
 //   IDLE --frame in the queue--> BACKING_OFF --time is up--> ASSESSING --free--> TURNING --turnaround--> SENDING
 //    ^                            ^   ^                        |  |                                     |     |
@@ -16,17 +16,17 @@
 //    |                                                                                           |
 //    +--------------------- queue empty (otherwise: BACKING_OFF for the next frame) <------------+
 //
-// A unicast frame received in IDLE, BACKING_OFF or ASSESSING is acknowledged: WAITING_SIFS --> SENDING_ACK. Then the own frame
-// backs off again, and keeps its count of failed assessments. A unicast frame received in AWAITING_ACK is accepted without an
-// ACK. From ASSESSING on, until a frame or an ACK has been sent, the radio cannot receive. Only in ASSESSING does the device need
-// to know whether frames make the channel busy together.
+// A unicast frame received in IDLE, BACKING_OFF or ASSESSING is acknowledged: WAITING_SIFS -->
+// SENDING_ACK. Then the device backs off again for its own frame, which keeps its count of failed
+// assessments. A unicast frame received in AWAITING_ACK is accepted without an ACK. From the start of
+// a turnaround until the frame or ACK has been sent, the radio cannot receive. Only in ASSESSING does
+// the device need to know whether frames make the channel busy together.
 //
 // Source: IEEE Std 802.15.4-2006, 7.5.1.4 (CSMA-CA algorithm), 7.5.6.4 (acknowledgments). Where the
-// standard leaves room, the choices are those of INET 4.5, with four differences. A frame is
-// dropped after its last assessment also if it was never on the air, where INET starts over. A
-// frame that arrives at the instant at which an assessment ends makes the channel busy.
-// cca_whole_window and lifs_s are not in INET. (The latter is 7.5.1.3; as in ns-3, the backoff
-// begins at its end.)
+// standard leaves room, the choices are those of INET 4.5, with four differences. A frame is dropped
+// after its last failed assessment even if it was never on the air; INET starts over. A frame that
+// arrives at the instant at which an assessment ends makes the channel busy. INET has neither
+// cca_whole_window nor lifs_s. (The latter is 7.5.1.3; as in ns-3, the backoff begins at its end.)
 #pragma once
 
 #include <cstddef>
@@ -101,16 +101,16 @@ private:
     SimTime ack_wait_;
     RandomStream draws_;
 
-    TransmitQueue queue_;  // its frame in progress was sent, or is about to be
+    TransmitQueue queue_;  // its frame in progress was sent, or is about to be sent
     DuplicateFilter duplicates_;
     State state_ = State::idle;
     EventHandle timer_;                 // of the current state
-    std::shared_ptr<const Frame> ack_;  // about to be sent
+    std::shared_ptr<const Frame> ack_;  // to be sent after SIFS
     SimTime earliest_wait_;             // no backoff begins before this
     int failed_assessments_ = 0;        // of the current attempt
     int retries_ = 0;                   // of the frame in progress
-    bool interrupted_by_ack_ = false;   // the current attempt
-    bool was_busy_ = false;             // the channel, during the assessment
+    bool interrupted_by_ack_ = false;   // whether an ACK interrupted the current attempt
+    bool was_busy_ = false;             // whether the channel was busy during the assessment
 };
 
 }  // namespace netsim

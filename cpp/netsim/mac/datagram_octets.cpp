@@ -26,7 +26,7 @@ void set_be16(Octets& octets, std::size_t offset, unsigned value) {
 
 void append_ipv4_header(Octets& octets, const Frame& frame, std::size_t payload_bytes) {
     const std::size_t start = octets.size();
-    append_be16(octets, 0x4500);  // version 4, five words of header
+    append_be16(octets, 0x4500);  // version 4, header of five words
     append_be16(octets, static_cast<unsigned>(ipv4_header_bytes + udp_header_bytes + payload_bytes));
     append_be16(octets, frame.sequence);  // identification
     append_be16(octets, 0);               // not a fragment
@@ -55,7 +55,7 @@ void append_udp(Octets& octets, const Frame& frame) {
     append_be16(covered, datagram_length);
     covered.insert(covered.end(), octets.begin() + static_cast<std::ptrdiff_t>(start), octets.end());
     const unsigned checksum = internet_checksum(covered);
-    set_be16(octets, start + udp_checksum_offset, checksum == 0 ? 0xffff : checksum);  // 0 would mean: none
+    set_be16(octets, start + udp_checksum_offset, checksum == 0 ? 0xffff : checksum);  // 0 means: no checksum
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
-// The octets of the IP datagram in a data frame, for capture files. The engine works with sizes
-// only.
+// The octets of the IP datagram in a data frame, for capture files. The engine itself only uses
+// sizes.
 //
-// Node n has the address 10.x.x.x, with the three octets of n. A broadcast goes to 255.255.255.255.
+// Node n has the address 10.x.x.x with the lower three octets of n. A broadcast goes to
+// 255.255.255.255.
 // Both ends use UDP port 50000.
 //
 // Source: RFC 791 (IPv4); RFC 768 (UDP).

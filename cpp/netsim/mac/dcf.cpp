@@ -57,7 +57,7 @@ void Dcf::contend_for_next() {
 }
 
 void Dcf::channel_granted() {
-    if (queue_.empty()) {  // the end of the backoff after a frame
+    if (queue_.empty()) {  // end of the post-backoff
         stop_watching_channel();
         return;
     }
@@ -138,7 +138,7 @@ bool Dcf::is_awaiting_answer() const {
 }
 
 void Dcf::answer_timed_out() {
-    // A frame that is being received may be the response: its end decides.
+    // A frame that is being received may be the response. Its end decides.
     if (!radio_.is_receiving()) {
         attempt_failed();
     }
@@ -295,7 +295,7 @@ void Dcf::channel_busy_changed(bool busy) {
     }
 }
 
-// Frames that were not reported in the meantime may have made the channel busy.
+// Frames that the radio did not report may have made the channel busy since it was last watched.
 void Dcf::watch_channel(SimTime since) {
     if (!watches_channel_) {
         watches_channel_ = true;

@@ -1,9 +1,9 @@
 // An 802.11 station without QoS: the distributed coordination function.
 //
 // It sends the frames of its queue one by one: contention, RTS and CTS from the RTS threshold on,
-// frame, ACK, retries. It responds to data frames with an ACK and to RTS frames with a CTS after
-// SIFS, keeps the NAV and drops duplicates. The rate control chooses the mode of a unicast frame
-// when the channel is granted, for each attempt.
+// frame, ACK, retries. After SIFS, it responds to data frames with an ACK and to RTS frames with a
+// CTS. It maintains the NAV and drops duplicates. For each attempt to send a unicast frame, the rate
+// control chooses the mode when the channel is granted.
 //
 // States of the exchange that this station originates:
 //
@@ -21,9 +21,9 @@
 // responds to an RTS only if the NAV is not set.
 //
 // Source: IEEE 802.11-2020, 10.3 (DCF). Where the standard leaves room, the choices are those of
-// INET 4.5. One choice of INET violates the standard and has an option, own_frames_set_nav: a
-// station's own frames set its NAV. So a station whose RTS failed stays silent for as long as the
-// exchange would have taken.
+// INET 4.5. One choice of INET violates the standard and is an option, own_frames_set_nav: a
+// station's own frames set its NAV. So a station whose RTS failed stays silent for the duration of
+// the planned exchange.
 #pragma once
 
 #include <cstddef>
@@ -107,7 +107,7 @@ private:
     bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
     void await_end_of_nav();
     void update_contention();
-    // Frames that made it busy together count from `since` on.
+    // Frames that made the channel busy only together count from `since` on.
     void watch_channel(SimTime since);
     // No effect while there is a frame to send or a backoff to count down.
     void stop_watching_channel();
@@ -119,28 +119,28 @@ private:
     Radio& radio_;
     SimTime nav_end_ = SimTime::long_ago();
     bool watches_channel_ = false;  // and notifies contention
-    // Only if set, contention is notified of a correct frame: it is in another cache line.
+    // Contention is notified of a correct frame only if this is set, since it is in another cache line.
     bool last_frame_was_broken_ = false;
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     int attempts_ = 0;  // failed attempts of the frame in progress that were on the air
 
-    // Then the members that sending a broadcast reads: three lines.
+    // Then the members that sending a broadcast reads: three cache lines.
     EventHandle nav_event_;  // pending while the channel is watched
     Retry retry_;            // of the frame in progress
     Contention contention_;
-    TransmitQueue queue_;  // its frame in progress got the channel once, and is not finished yet
+    TransmitQueue queue_;  // its frame in progress was granted the channel at least once
 
-    SequenceNumber nav_sequence_number_ =
-        0;  // of the event at the end of the NAV; reserved when the NAV was set
-    std::shared_ptr<const DcfParameters> owned_parameters_;  // parameters_ again: keeps them alive
+    // Of the event at the end of the NAV; reserved when the NAV was set.
+    SequenceNumber nav_sequence_number_ = 0;
+    std::shared_ptr<const DcfParameters> owned_parameters_;  // keeps parameters_ alive
     std::unique_ptr<RateControl> rate_control_;
-    std::vector<std::uint64_t>
-        frames_by_mode_;  // [mode index]: unicast frames on the air; with adaptive rate only
+    // [mode index]: unicast frames sent; empty without adaptive rate control.
+    std::vector<std::uint64_t> frames_by_mode_;
     DuplicateFilter duplicates_;
 
     std::shared_ptr<const Frame> rts_;  // on the air
-    const Mode* data_mode_;             // of the unicast frame in progress or the last one
+    const Mode* data_mode_;             // of the current or the last unicast frame
     EventHandle answer_timeout_;
 
     std::shared_ptr<const Frame> response_frame_;

@@ -19,7 +19,7 @@ Retry::Window contention_window_of(const MacConfig& config, const ModeSet& modes
     const Retry::Window window{config.cw_min < 0 ? modes.cw_min() : config.cw_min,
                                config.cw_max < 0 ? modes.cw_max() : config.cw_max};
     if (window.max < window.min) {
-        // Set values were compared already, so one of the two is the operation mode's.
+        // MacConfig::validate compares values that are both set, so one of these is the mode's.
         const bool is_min_set = config.cw_min >= 0;
         const Quantity min{static_cast<double>(window.min), ""};
         const Quantity max{static_cast<double>(window.max), ""};
@@ -65,8 +65,8 @@ DcfParameters::DcfParameters(Simulator& simulator_, MacConfig mac_config)
       retry{{config.short_retry_limit, config.long_retry_limit},
             contention_window_of(config, modes),
             retry_rule_of(config)},
-      // For a new message, the window is at its minimum, unless failures of earlier ones have left it
-      // larger.
+      // For a new message, the window is at its minimum, unless the rule lets failures of earlier
+      // messages enlarge it.
       longest_wait(timing.difs +
                    timing.slot *
                        (retry.rule == Retry::Rule::frame_counters ? retry.window.min : retry.window.max)),

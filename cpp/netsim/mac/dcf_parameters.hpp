@@ -1,4 +1,5 @@
-// Parameters shared by all stations of one configuration in a network. Computed once and never changed.
+// Parameters shared by all stations with the same configuration in a network. Computed once and never
+// changed.
 #pragma once
 
 #include "netsim/config/mac_config.hpp"
@@ -27,7 +28,7 @@ struct DcfParameters {
     const Mode& broadcast_mode;
     const Mode& rts_mode;
     Retry::Rules retry;
-    SimTime longest_wait;  // for a free channel: how far back its state matters
+    SimTime longest_wait;  // for the channel: the time for which its past state matters
     bool has_adaptive_rate;
 };
 

@@ -2,8 +2,8 @@
 // mac/frame_802154.hpp.
 //
 // A frame is created once, never changed, and shared by all receivers. A retry is another frame,
-// with its retry bit set. Source of sizes: IEEE 802.11 frame formats; LLC/SNAP, IPv4 and UDP
-// headers as a datagram over WLAN has them.
+// with its retry bit set. Source of the sizes: IEEE 802.11-2020, 9.3 (frames), RFC 1042 (LLC/SNAP),
+// RFC 791 (IPv4) and RFC 768 (UDP).
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@
 
 namespace netsim {
 
-// The string of a message, in UTF-8, shared by all receivers.
+// The content of a message in UTF-8, shared by all receivers.
 using Payload = std::shared_ptr<const std::string>;
 
 // Octets.
@@ -30,7 +30,7 @@ constexpr int ack_bytes = 14;
 constexpr int rts_bytes = 20;
 constexpr int cts_bytes = 14;
 
-// Length of the MPDU that carries a payload: 100 B make 164 B.
+// Length of the MPDU that carries a payload: 164 B for 100 B.
 constexpr int data_psdu_bytes(int payload_bytes) {
     return mac_header_bytes + llc_snap_bytes + ipv4_header_bytes + udp_header_bytes + payload_bytes +
            fcs_bytes;
@@ -40,7 +40,8 @@ constexpr int datagram_bytes(int payload_bytes) {
     return ipv4_header_bytes + udp_header_bytes + payload_bytes;
 }
 
-// The cause of a message: a callback of the sender's protocol, numbered by the recorder; 0: not recorded.
+// The cause of a message: a callback of the sender's protocol, numbered by the replay recorder.
+// 0: not recorded.
 using CauseId = std::uint32_t;
 
 struct Frame {
@@ -49,15 +50,15 @@ struct Frame {
     NodeId receiver = broadcast_id;
     std::uint32_t sequence = 0;  // of the transmitter's data frames; a retry keeps it
     bool retry = false;
-    // How long the exchange continues after this frame. Sets the NAV of other stations.
-    SimTime duration_field{};  // NOLINT(readability-redundant-member-init): g++ asks for it
+    // Time from the end of this frame to the end of the exchange. Sets the NAV of other stations.
+    SimTime duration_field{};  // NOLINT(readability-redundant-member-init): g++ warns without it
     int psdu_bytes = 0;
     Payload payload;    // of data frames only
     CauseId cause = 0;  // of data frames only
     SimTime accepted;   // of data frames only: when the interface accepted the message
 };
 
-// Of the message in a data frame.
+// The kind of the message in a data frame.
 inline MessageKind message_kind(const Frame& frame) {
     return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
 }

@@ -1,4 +1,4 @@
-// A FIFO of frames with little memory: the storage of a TransmitQueue.
+// A FIFO of frames that needs little memory: the storage of a TransmitQueue.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@ public:
         }
         others_->frames.push_back(std::move(frame));
     }
-    // The FIFO must not be empty, here and below.
+    // Only when not empty, like pop.
     std::shared_ptr<const Frame>& front() { return first_; }
     const std::shared_ptr<const Frame>& front() const { return first_; }
     void pop() { first_ = others_ ? others_->take() : nullptr; }
@@ -34,7 +34,7 @@ private:
     // Not a deque, which takes half a kilobyte even when empty.
     struct Others {
         std::vector<std::shared_ptr<const Frame>> frames;
-        std::size_t taken = 0;  // at the front
+        std::size_t taken = 0;  // number of removed frames at the front
 
         std::size_t size() const { return frames.size() - taken; }
         // Null if there is none.
@@ -43,7 +43,7 @@ private:
                 return nullptr;
             }
             std::shared_ptr<const Frame> frame = std::move(frames[taken++]);
-            if (2 * taken >= frames.size()) {  // so a frame is moved once on average
+            if (2 * taken >= frames.size()) {  // then each frame is moved at most once on average
                 frames.erase(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(taken));
                 taken = 0;
             }
@@ -53,7 +53,7 @@ private:
 
     // Null only if there are no others. Usually the only frame, stored without an allocation.
     std::shared_ptr<const Frame> first_;
-    std::unique_ptr<Others> others_;  // null until there were two
+    std::unique_ptr<Others> others_;  // null until there are two frames
 };
 
 }  // namespace netsim

@@ -22,7 +22,7 @@ void append_frame_control(Octets& octets, const Frame& frame, unsigned type) {
     append_u8(octets, frame.retry ? retry_flag : 0);
 }
 
-// In microseconds, rounded up; at most 32767 by the standard.
+// In microseconds, rounded up; at most 32767 (the standard's limit).
 void append_duration(Octets& octets, SimTime duration) {
     constexpr std::int64_t ps_per_us = 1'000'000;
     const std::int64_t us = (duration.ps() + ps_per_us - 1) / ps_per_us;

@@ -7,18 +7,18 @@ namespace netsim {
 
 namespace {
 
-// Rates that succeed at least this often count as equally likely, and the one with the largest
+// Rates with at least this success ratio count as equally likely to succeed. The one with the largest
 // throughput is used.
 constexpr double likely_enough = 0.95;
 
-// For rates that succeed more often, or less often than this, two consecutive attempts suffice.
+// Rates with a success ratio above likely_enough or below unlikely_enough get two attempts in a row.
 constexpr double unlikely_enough = 0.1;
 constexpr int fewest_in_a_row = 2;
 
-// The longest duration of all attempts of a stage together.
+// The maximum duration of all attempts of a stage together.
 constexpr double longest_stage_s = 6e-3;
 
-// Seconds per attempt on a free channel: DIFS, mean backoff of that contention window, frame, SIFS,
+// Seconds per attempt on a free channel: DIFS, mean backoff with contention window `cw`, frame, SIFS,
 // ACK.
 double attempt_s(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes, int cw) {
     const SimTime fixed = timing.difs + timing.sifs + modes.response_mode(mode).duration(ack_bytes);
@@ -124,8 +124,8 @@ void MinstrelRateControl::update(Link& link, int psdu_bytes, SimTime now) const 
     const auto throughput = [&](std::size_t mode) {
         return link.modes[mode].mean / attempt_s(modes_, timing_, modes[mode], psdu_bytes, modes_.cw_min());
     };
-    // Of equals, the slower one: if nothing succeeded, the slowest, which is then also the second
-    // best.
+    // Of equal rates, the slower one is chosen. If nothing succeeded, the slowest rate is both the
+    // best and the second best.
     std::size_t best = 0;
     std::size_t second = 0;
     std::size_t likeliest = 0;

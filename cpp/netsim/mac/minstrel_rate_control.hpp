@@ -1,24 +1,23 @@
-// Minstrel: measures the success ratio at each rate, and uses the rates with the most
-// throughput.
+// Minstrel: measures the success ratio at each rate, and uses the rates with the highest throughput.
 //
-// Every `update_interval`, the shares of the attempts since the last update enter the means (a rate
-// without attempts keeps its mean), and the rates are ranked again by
+// Every `update_interval`, the success ratios since the last update enter the means (a rate without
+// attempts keeps its mean), and the rates are ranked again by
 //
-//   throughput = mean share of successes / duration of an attempt, including waiting and ACK
+//   throughput = mean success ratio / duration of an attempt, including waiting and ACK
 //
 // The attempts of a frame follow a chain of stages until the MAC drops the frame. A stage has as
 // many attempts as fit into 6 ms, or two if the rate nearly always or hardly ever succeeds:
 //
 //   best throughput --> second best --> most likely to succeed --> slowest
 //
-// A share `look_around` of the frames, drawn at random, tries another random rate: a faster one at
-// the first attempt, a slower one instead of the second stage, where it costs nothing unless the
-// best rate fails.
+// A random fraction `look_around` of the frames tries another random rate. A faster rate is tried at
+// the first attempt. A slower one replaces the second stage, where it costs nothing unless the best
+// rate fails.
 //
 // Sources: the description of Minstrel in the documentation of Linux' mac80211; D. Xia, J. Hart, Q.
 // Fu, "Evaluation of the Minstrel rate adaptation algorithm in IEEE 802.11g WLANs", ICC 2013. Two
-// differences: the MAC's retry limit usually cuts the chain, and durations are those of the last
-// frame sent (Minstrel: of 1200 B).
+// differences: the MAC's retry limit usually cuts the chain, and durations are those of the current
+// frame (Minstrel: of a frame of 1200 B).
 #pragma once
 
 #include <cstddef>
@@ -35,8 +34,8 @@ class MinstrelRateControl final : public RateControl {
 public:
     struct Parameters {
         SimTime update_interval;
-        double look_around;  // share of frames
-        double ewma_weight;  // of the past in the mean
+        double look_around;  // fraction of frames, 0 to 1
+        double ewma_weight;  // weight of the past in the mean, 0 to 1
     };
 
     MinstrelRateControl(const ModeSet& modes, const Mode& initial, const Parameters& parameters,
@@ -51,8 +50,8 @@ private:
     struct Statistics {
         int attempts = 0;  // since the last update
         int successes = 0;
-        bool known = false;  // whether there was an attempt before that
-        double mean = 0;     // share of successes
+        bool known = false;  // whether there was an attempt before the last update
+        double mean = 0;     // of the success ratio
     };
     // Indices of modes.
     struct Chain {
@@ -63,7 +62,7 @@ private:
     struct Link {
         std::vector<Statistics> modes;
         Chain chain;
-        std::size_t tried = 0;  // other rate of the frame in progress; the best one if none
+        std::size_t tried = 0;  // rate to try with the current frame; the best rate if none
         SimTime updated;
     };
 

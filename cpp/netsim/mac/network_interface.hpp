@@ -1,4 +1,4 @@
-// The contract between a node and its network interfaces.
+// The base class of network interfaces.
 //
 // There are three: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskInterface
 // (a perfect channel).
@@ -27,21 +27,21 @@ class NetworkInterface {
 public:
     virtual ~NetworkInterface() = default;
 
-    // The receiver of messages; none if null.
+    // Sets the receiver of messages; null for none.
     void set_listener(NetworkInterfaceListener* listener) { listener_ = listener; }
     // Accepts a message for `destination` (broadcast_id: for all nodes in reach). Throws
     // SimulationError if it is longer than longest_message_bytes().
     virtual void send(NodeId destination, Payload payload, CauseId cause) = 0;
     virtual std::size_t longest_message_bytes() const = 0;
-    // A message will probably be sent soon: prefetches what that reads (kernel/prefetch.hpp). The
-    // first line of the interface is already in the cache. Step 0 prefetches what it points to,
-    // step 1 what that points to.
+    // A message will probably be sent soon: prefetches what sending reads (kernel/prefetch.hpp). The
+    // first line of the interface is already in the cache. Step 0 prefetches what that line points
+    // to, and step 1 what the result points to.
     virtual void prefetch(int step) const = 0;
     // Outcomes of the messages that this interface accepted.
     virtual const MessageFates& message_fates() const = 0;
-    // Messages that wait or are in progress, to check that outcomes balance.
+    // Number of messages that wait or are in progress, to check that the outcomes add up.
     virtual std::size_t queued_messages() const = 0;
-    // {bitrate in bps: unicast frames sent with it, retries included}; empty without adaptive rate
+    // {bitrate in bps: unicast frames sent with it, including retries}; empty without adaptive rate
     // control.
     virtual std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const { return {}; }
 

@@ -1,9 +1,9 @@
-// Rate control: chooses the mode of each attempt to send a unicast frame, by the outcomes of
-// earlier ones. Used by the Dcf.
+// Rate control: chooses the mode of each attempt to send a unicast frame by the outcomes of earlier
+// attempts. Used by the Dcf.
 //
-// A station knows only whether an ACK came back, so a collision looks like a weak signal. State is
-// kept per destination. (INET keeps it per station, so that a far neighbor slows down the near
-// ones.) RTS, CTS, ACK and broadcast frames are not affected.
+// A station knows only whether it received an ACK, so a collision looks like a weak signal. State is
+// kept per destination. (INET keeps it per station, so that a distant neighbor slows down the frames
+// to near ones.) RTS, CTS, ACK and broadcast frames are not affected.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ namespace netsim {
 struct RateAttempt {
     NodeId destination = 0;
     int psdu_bytes = 0;
-    int number = 0;  // earlier attempts of the frame on the air
+    int number = 0;  // of earlier attempts in which the frame was on the air
 };
 
 class RateControl {
@@ -29,14 +29,15 @@ public:
     virtual ~RateControl() = default;
 
     // The mode of the next attempt. Called when the channel is granted, before an RTS. If the RTS
-    // fails, it is called again for the same attempt, without a call of the two functions below.
+    // fails, it is called again for the same attempt, without a call of `succeeded` or `failed`.
     virtual const Mode& mode_for(const RateAttempt& attempt, SimTime now) = 0;
-    // The outcome of the attempt. After `failed` comes the next attempt, or the frame is dropped.
+    // Report the outcome of the attempt. After `failed`, the next attempt follows, or the frame is
+    // dropped.
     virtual void succeeded(const RateAttempt& attempt, const Mode& mode, SimTime now) = 0;
     virtual void failed(const RateAttempt& attempt, const Mode& mode, SimTime now) = 0;
 };
 
-// All frames in one mode.
+// Sends all frames in one mode.
 class FixedRateControl final : public RateControl {
 public:
     explicit FixedRateControl(const Mode& mode) : mode_(mode) {}
@@ -53,7 +54,7 @@ private:
 // mode does not have.
 const Mode& initial_mode(const MacConfig& config);
 
-// The rate control named by MacConfig::rate_control, for the station of `interface`.
+// Creates the rate control named by MacConfig::rate_control, for the station of `interface`.
 std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uint64_t seed,
                                                InterfaceId interface);
 

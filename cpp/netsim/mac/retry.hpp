@@ -1,19 +1,20 @@
 // Retry counters of the frame in progress, and the contention window that grows with failures.
 //
 // A frame has two counters. The short one counts failures of RTS frames and of frames below the RTS
-// threshold, the long one those of frames from the threshold on. Both count if the RTS and the
-// frame itself fail in turn: a CTS resets neither. Every failure doubles the window.
+// threshold. The long one counts failures of frames from the threshold on. A CTS resets neither.
+// Every failure doubles the window.
 //
-// Dropping a frame resets the window. INET's rule, Rule::station_counters, also counts the failures
-// of the station, in two counters that outlive frames. Only successes and broadcasts reset them.
-// The failure that makes one of them equal to the limit resets the window, and each later one
-// doubles it as before. So the window is small after the first of several dropped frames, and stays
-// large from the second on. Rule::station_window is that of ns-3 3.44: dropping a frame leaves the
-// window as it is, and the failure after as many in a row as the short limit resets it.
+// By default (Rule::frame_counters), dropping a frame resets the window. Rule::station_counters is
+// INET's rule. It also counts the failures of the station, in two counters that outlive frames. Only
+// successes and broadcasts reset them. The failure with which a counter reaches the limit resets the
+// window, and each later one doubles it as before. So the window is small after the first of several
+// dropped frames, and large after the second and later ones. Rule::station_window is the rule of
+// ns-3 3.44: dropping a frame does not change the window. With n the short limit, the failure n + 1
+// in a row resets it.
 //
-// Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window); that a
-// frame of exactly the threshold's length counts as long is INET's choice. Why the rule is not the
-// default: docs/decisions/0025.
+// Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window). INET's
+// choice: a frame of exactly the threshold's length is long. Why INET's rule is not the default:
+// docs/decisions/0025.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +33,7 @@ public:
         int max;
     };
     enum class Rule : std::uint8_t { frame_counters, station_counters, station_window };
-    // Usually the same for all stations.
+    // Usually shared by all stations.
     struct Rules {
         Limits limits{};
         Window window{};
@@ -45,14 +46,14 @@ public:
     // The contention window of the next attempt, in slots.
     int contention_window() const { return cw_; }
 
-    // An RTS or a frame below the RTS threshold was not answered. False if that was the last
+    // An RTS or a frame below the RTS threshold was not answered. Returns false if that was the last
     // attempt.
     bool short_failed() { return failed(short_, rules_.limits.short_failures); }
     // The same for a frame from the RTS threshold on.
     bool long_failed() { return failed(long_, rules_.limits.long_failures); }
-    // An RTS was answered: counts for the station only.
+    // An RTS was answered. Affects only the counter of the station.
     void rts_answered() { short_.of_station = 0; }
-    // The frame was acknowledged; the next one starts with fresh counters.
+    // The frame was acknowledged. The next frame starts with its counters and the window reset.
     void acknowledged(bool is_long) {
         (is_long ? long_ : short_).of_station = 0;
         start_afresh();
@@ -69,7 +70,7 @@ public:
     void broadcast_sent() { short_ = long_ = {}; }
 
 private:
-    // Consecutive ones.
+    // Numbers of consecutive failures.
     struct Failures {
         int of_frame = 0;
         int of_station = 0;

@@ -21,7 +21,8 @@ namespace netsim {
 
 class TransmitQueue {
 public:
-    // `node`: of the interface. `capacity`: of waiting frames; the one in progress does not count.
+    // `node`: of the interface. `capacity`: maximum number of waiting frames, without the one in
+    // progress.
     TransmitQueue(NodeId node, int capacity) : capacity_(capacity), node_(node) {}
 
     // The frame of a new message from this node, with the next sequence number and without a
@@ -39,7 +40,7 @@ public:
         frame.accepted = now;
         return frame;
     }
-    // Accepts the message of a data frame. False if the queue is full and the frame is dropped.
+    // Accepts the message of a data frame. Returns false if it is dropped because the queue is full.
     bool add(Frame frame) {
         const MessageKind kind = message_kind(frame);
         fates_.accept(kind);
@@ -56,13 +57,13 @@ public:
     bool empty() const { return queue_.empty(); }
     const MessageFates& message_fates() const { return fates_; }
 
-    // Makes the first waiting frame, which must exist, the one in progress, unless a frame is in
-    // progress already.
+    // Unless a frame is in progress already, makes the first waiting frame the one in progress. There
+    // must be one.
     void begin_next() { is_in_progress_ = true; }
     bool is_in_progress() const { return is_in_progress_; }
-    // Only while there is a frame in progress, here and below.
+    // Only while a frame is in progress, here and below.
     const std::shared_ptr<const Frame>& in_progress() const { return queue_.front(); }
-    // Frames never change: these replace the frame in progress by a modified one.
+    // Frames are immutable, so these replace the frame in progress with a modified one.
     void set_retry() {
         if (!in_progress()->retry) {
             change([](Frame& frame) { frame.retry = true; });
@@ -91,7 +92,7 @@ private:
 
     FrameFifo queue_;
     int capacity_;
-    bool is_in_progress_ = false;  // the first
+    bool is_in_progress_ = false;  // whether the first frame is
     NodeId node_;
     std::uint32_t next_sequence_ = 0;
     MessageFates fates_;

@@ -72,7 +72,8 @@ void UnitDiskInterface::access_channel() {
     const std::shared_ptr<const Frame> frame = queue_.front();
     queue_.pop();
     transmit(frame);
-    if (!queue_.empty()) {  // in two steps: senders that find the channel occupied now come first
+    // In two events, so that senders that start waiting during this transmission come first.
+    if (!queue_.empty()) {
         waits_ = true;
         simulator_.schedule_at(free_at(), [this] {
             waits_ = false;
@@ -113,10 +114,10 @@ void UnitDiskInterface::transmit(const std::shared_ptr<const Frame>& frame) {
             free_flights_.pop_back();
         }
         flights_[flight] = Flight{frame, label.number, receiver};
-        const SimTime way = timing_.is_instant()
-                                ? SimTime{}
-                                : SimTime::from_seconds(std::sqrt(squared_distance_m2) / speed_of_light_mps);
-        simulator_.schedule_after(airtime + way, [this, flight] { deliver(flight); });
+        const SimTime delay =
+            timing_.is_instant() ? SimTime{}
+                                 : SimTime::from_seconds(std::sqrt(squared_distance_m2) / speed_of_light_mps);
+        simulator_.schedule_after(airtime + delay, [this, flight] { deliver(flight); });
     }
     if (FrameObserver* const observer = frame_fates_.observer(); observer != nullptr) {
         Transmission transmission;
@@ -149,7 +150,7 @@ void UnitDiskInterface::end_exchange(MessageKind kind, MessageFate fate) {
     message_fates_.book(kind, fate);
 }
 
-// Squares, as in prototype mode: roots are rounded, so nodes exactly at the range would differ.
+// Squared, as in prototype mode: with rounded square roots, nodes exactly at the range would differ.
 double UnitDiskInterface::squared_distance_to(const UnitDiskInterface& other) const {
     const SimTime now = simulator_.now();
     return squared_distance(other.trajectory_.position_at(now), trajectory_.position_at(now));

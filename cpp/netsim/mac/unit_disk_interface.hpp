@@ -1,15 +1,15 @@
 // A perfect channel: all nodes within the sender's range get the message. No interference, no loss.
 //
-// Without time, they get it at the instant it is sent: the same rules as the channel of prototype
-// mode. It separates the logic of a protocol from the effects of the radio. With airtime, they get it
-// at the end of its frame, after the way at the speed of light. With channel access, a frame also
-// waits in a queue until the channel is free around its sender (UnitDiskTiming).
+// With instant timing, they get it at the instant it is sent, by the same rules as in prototype mode.
+// This separates the logic of a protocol from the effects of the radio. With airtime, they get it at
+// the end of its frame, after the propagation delay. With channel access, a frame also waits in a
+// queue until the channel is free around its sender (UnitDiskTiming).
 //
 //   send() -> WAITING --the channel is free, and this sender is the first to see it--> ON THE AIR
 //
 // The range is inclusive, and evaluated at the start of the frame. All interfaces share one channel:
-// those of a node differ only in their range. Frames never collide: a node receives several at once,
-// and while it sends.
+// those of a node differ only in their range. Frames never collide: a node can receive several at
+// once, and while it transmits.
 #pragma once
 
 #include <cstddef>
@@ -46,7 +46,7 @@ public:
     UnitDiskInterface(const UnitDiskInterface&) = delete;
     UnitDiskInterface& operator=(const UnitDiskInterface&) = delete;
 
-    // Also throws SimulationError if messages answer each other endlessly at one instant.
+    // Also throws SimulationError for endless replies at one instant.
     void send(NodeId destination, Payload payload, CauseId cause) override;
     void prefetch(int /*step*/) const override { netsim::prefetch(*this); }
     std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
@@ -61,7 +61,7 @@ private:
     void transmit(const std::shared_ptr<const Frame>& frame);
     void end_exchange(MessageKind kind, MessageFate fate);
     void deliver(std::size_t flight);
-    // The time from which on the channel around this node is free. Its interfaces share it.
+    // The time when the channel around this node becomes free. The node's interfaces share it.
     SimTime& free_at() { return channel_.interfaces[id_]->free_at_; }
 
     Simulator& simulator_;
@@ -74,9 +74,9 @@ private:
     NodeId id_;
     InstantCount sent_;
     MessageFates message_fates_;
-    FrameFifo queue_;         // of frames that wait for the channel
-    bool waits_ = false;      // an event will check the channel
-    std::size_t on_air_ = 0;  // exchanges that have not ended
+    FrameFifo queue_;         // frames that wait for the channel
+    bool waits_ = false;      // whether an event will check the channel
+    std::size_t on_air_ = 0;  // number of exchanges that have not ended
     SimTime free_at_;
 
     struct Flight {  // a message between the start of its frame and its delivery

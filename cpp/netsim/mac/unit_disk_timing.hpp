@@ -1,6 +1,8 @@
-// The time that a message takes on a perfect channel: that of its frame in the format of the interface, or none.
+// The time that a message takes on a perfect channel: the airtime of its frame in the format of the
+// interface, or none.
 //
-// No rate control, no RTS, no fragments. An acknowledged frame occupies the channel until the end of its ACK.
+// No rate control, RTS or fragmentation. A unicast frame occupies the channel until the end of its
+// ACK, if ACKs are used.
 #pragma once
 
 #include <string_view>
@@ -14,7 +16,8 @@ namespace netsim {
 
 class UnitDiskTiming {
 public:
-    // `timing`: MediumConfig::timing. Throws ConfigError for a bitrate that the operation mode does not have.
+    // `timing`: MediumConfig::timing. Throws ConfigError for a bitrate that the operation mode does
+    // not have.
     UnitDiskTiming(std::string_view timing, const InterfaceConfig& config);
 
     bool is_instant() const { return is_instant_; }
@@ -22,11 +25,11 @@ public:
     int queue_capacity() const { return queue_capacity_; }
 
     const Mode& mode(FrameKind kind) const { return kind == FrameKind::broadcast ? *broadcast_ : *unicast_; }
-    // With MAC, IP and UDP headers, in bytes.
+    // Length of the PSDU in bytes, with MAC, IP and UDP headers.
     int psdu_bytes(int payload_bytes) const;
     // Time on the air of a data frame.
     SimTime airtime(FrameKind kind, int psdu_bytes) const;
-    // From the end of a data frame until the end of its exchange: SIFS and the ACK of a unicast frame.
+    // From the end of a data frame to the end of its exchange: SIFS and the ACK of a unicast frame.
     SimTime response(FrameKind kind) const {
         return kind == FrameKind::broadcast || is_instant_ ? SimTime{} : response_;
     }

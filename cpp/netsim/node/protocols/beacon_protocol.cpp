@@ -36,7 +36,7 @@ void BeaconProtocol::initialize() {
 }
 
 void BeaconProtocol::schedule() {
-    // Multiplied, not accumulated: all nodes round alike, and errors do not grow.
+    // Multiplied, not accumulated: all nodes round equally, and errors do not grow.
     const double time_s = start_s_ + static_cast<double>(sent_) * config_.interval_s;
     if (time_s < config_.stop_s) {
         node_.schedule_timer("beacon", SimTime::of_event(time_s));

@@ -19,8 +19,8 @@ struct BeaconConfig {
     void validate() const;
 };
 
-// Message number k is sent at first_send + offset + k · interval. The offset is drawn at the start,
-// between 0 and spread. Tracked at the end: "sent", "received".
+// Message k = 0, 1, … is sent at first_send + offset + k · interval, if that is before stop. The
+// offset is drawn at the start, between 0 and spread. Tracked at the end: "sent", "received".
 class alignas(64) BeaconProtocol final : public Protocol {
 public:
     BeaconProtocol(Node& node, const BeaconConfig& config);

@@ -11,7 +11,7 @@ class Reader {
 public:
     explicit Reader(std::string_view text) : rest_(text) {}
 
-    // Consumes `token` and the spaces before it, if it comes next.
+    // Consumes white space, and `token` if it comes next. Returns whether it did.
     bool take(std::string_view token) {
         const std::size_t begin = rest_.find_first_not_of(" \t\n\r");
         rest_.remove_prefix(begin == std::string_view::npos ? rest_.size() : begin);
@@ -84,7 +84,7 @@ std::optional<FlatJson> parse_flat_json(std::string_view text) {
             return std::nullopt;
         }
     }
-    // Only spaces, which take("") consumes, may follow.
+    // Only white space, which take("") consumes, may follow.
     return reader.take("") && reader.is_at_end() ? std::optional(std::move(object)) : std::nullopt;
 }
 

@@ -14,7 +14,7 @@ namespace netsim {
 using FlatJsonValue = std::variant<bool, std::int64_t, std::string>;
 using FlatJson = std::map<std::string, FlatJsonValue, std::less<>>;
 
-// None for any other string.
+// Returns nullopt for any other string.
 std::optional<FlatJson> parse_flat_json(std::string_view text);
 
 }  // namespace netsim

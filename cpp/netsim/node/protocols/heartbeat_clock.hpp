@@ -1,6 +1,6 @@
-// The times of heartbeats: number k at k · interval + a random delay of up to `jitter`.
+// The times of heartbeats: heartbeat k is at k · interval + a random delay of up to `jitter`.
 //
-// All nodes count from time zero, so without jitter they all send at exactly the same instants.
+// All nodes count from time 0, so without jitter they all send at exactly the same instants.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace netsim {
 
 class HeartbeatClock {
 public:
-    // interval_s > 0; 0 ≤ jitter_s ≤ interval_s. The first heartbeat is the first one after
-    // `start_s`.
+    // interval_s > 0; 0 ≤ jitter_s ≤ interval_s. The first heartbeat is the first multiple of the
+    // interval after `start_s`, plus its delay.
     HeartbeatClock(double interval_s, double jitter_s, double start_s, RandomStream& random)
         : interval_s_(interval_s),
           jitter_s_(jitter_s),

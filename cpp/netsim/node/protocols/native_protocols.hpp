@@ -1,6 +1,6 @@
 // The table of native protocols, for `protocol.typename` in an .ini file.
 //
-// To add a protocol: its own file in this folder, and one line in native_protocols.cpp.
+// To add a protocol, add its file to this directory, and one line to native_protocols.cpp.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace netsim {
 
-// In the order of listings.
+// In the order in which they are listed to users.
 const std::vector<NativeProtocol>& native_protocols();
 
 // Sets the protocol of that name on `node`. Throws ConfigError for an invalid name, parameter or

@@ -18,7 +18,7 @@
 
 namespace netsim {
 
-// The alternatives are the types of parameters.
+// The alternatives are the valid parameter types.
 using ParameterValue = std::variant<bool, std::int64_t, double>;
 
 struct Parameter {
@@ -28,7 +28,7 @@ struct Parameter {
     std::string_view meaning;
 };
 
-// The given values; others have their defaults. An integer is accepted for a float.
+// Values by name. Other parameters have their defaults. An integer is accepted for a double.
 using Parameters = std::map<std::string, ParameterValue, std::less<>>;
 
 // One row of the table of native protocols.
@@ -37,8 +37,8 @@ struct NativeProtocol {
     std::string_view meaning;
     std::string_view python_class;  // the equivalent "file.py:Class" in examples/, or ""
     std::vector<Parameter> parameters;
-    // Creates the protocol of one node. Throws ConfigError for an unknown name, or a value of
-    // another type or out of range.
+    // Creates the protocol of one node. Throws ConfigError for an unknown parameter, and for a value
+    // of the wrong type or out of range.
     std::function<std::unique_ptr<Protocol>(Node&, const Parameters&)> make;
 };
 
@@ -59,11 +59,11 @@ struct ParameterField {
 // largest UDP payload).
 void check_payload_bytes(Node& node, std::int64_t payload_bytes);
 
-// Check the id of a node in the network of `node`, and of one other than `node`.
+// Check that `id` is a node of the network, and in the second case not `node` itself.
 void check_node_id(const Node& node, std::string_view field, std::int64_t id);
 void check_other_node_id(const Node& node, std::string_view field, std::int64_t id);
 
-// For a protocol that moves its node: rejects a mobility model that cannot.
+// For a protocol that moves its node: rejects a mobility model that takes no commands.
 void check_can_move(const Node& node, std::string_view protocol);
 
 // A row for the class `Type`, which is constructed from a Node and a Config. `Config` has defaults

@@ -42,7 +42,7 @@ void ReversingMission::handle_telemetry(const Position& position) {
     const std::size_t last = mission_.size() - 1;
     if (waypoint_ == (reversed_ ? 0 : last)) {
         reversed_ = !reversed_;
-        if (last > 0) {  // the only waypoint needs no command for each telemetry
+        if (last > 0) {  // a single waypoint would get a command for each telemetry
             go_to(reversed_ ? last - 1 : 1);
         }
         return;

@@ -19,9 +19,10 @@ public:
     bool is_reversed() const { return reversed_; }
     bool is_idle() const { return mission_.empty(); }
 
-    // Starts at the first waypoint. There must be one.
+    // Starts at the first waypoint. `mission` must not be empty.
     void start(std::vector<Position> mission);
-    // Reverses: flies to the next waypoint of the new direction, if it changed. Only when not idle.
+    // Sets the direction. If that changes it, flies to the next waypoint in the new direction. Only
+    // when not idle.
     void set_reversed(bool reversed);
     // Call it with the node's telemetry.
     void handle_telemetry(const Position& position);

@@ -9,7 +9,7 @@ namespace netsim {
 
 namespace {
 
-// The length in characters, as in Python: octets of UTF-8 except continuation bytes.
+// The length in characters, as in Python: the UTF-8 bytes that are not continuation bytes.
 std::int64_t characters(const std::string& text) {
     return std::count_if(text.begin(), text.end(),
                          [](char octet) { return (static_cast<unsigned char>(octet) & 0xC0U) != 0x80U; });

@@ -1,8 +1,8 @@
 // Custody of data over a lossy channel: examples/zigzag/custody.py in C++.
 //
-// A message has the total number of readings that its sender has handed to the receiver so far. The
-// receiver takes what is new to it. So a duplicate adds nothing, and the next message makes up for
-// a lost one.
+// A message contains the total number of readings that its sender has handed to the receiver so far.
+// The receiver adds the difference to the last total. So a duplicate adds nothing, and the next
+// message makes up for a lost one.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,6 @@ namespace netsim::zigzag {
 class Custody {
 public:
     std::int64_t held() const { return held_; }
-    // One more reading.
     void add_reading() { ++held_; }
     // The total number of readings handed to `peer` so far, for messages to it.
     std::int64_t given_to(NodeId peer) const {
@@ -26,7 +25,7 @@ public:
     }
     // Hands all readings to `peer`, as of the next message to it.
     void give_all(NodeId peer) { given_[peer] += std::exchange(held_, 0); }
-    // Takes what is new in a message of `peer` with the total `given`. Returns how many.
+    // Takes the new readings of a message from `peer` with the total `given`. Returns their number.
     std::int64_t take(NodeId peer, std::int64_t given) {
         std::int64_t& taken = taken_[peer];
         const std::int64_t added = std::max<std::int64_t>(0, given - taken);

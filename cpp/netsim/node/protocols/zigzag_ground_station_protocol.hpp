@@ -17,8 +17,8 @@ struct ZigZagGroundStationConfig {
     void validate() const;
 };
 
-// Stands still and takes all data of each UAV that passes; the UAV then flies away from it.
-// Tracked: "data", readings received; "deliveries", how often a UAV brought any.
+// Stands still and takes all data of each UAV that passes. The UAV then flies away from it. Tracked:
+// "data", readings received; "deliveries", how often a UAV delivered any.
 class ZigZagGroundStationProtocol final : public Protocol {
 public:
     ZigZagGroundStationProtocol(Node& node, const ZigZagGroundStationConfig& config);

@@ -13,12 +13,12 @@ namespace netsim::zigzag {
 struct UavHeartbeat {
     NodeId sender = 0;
     bool homeward = false;   // flies towards the ground station
-    bool available = false;  // does not ignore the other UAVs and the ground station
+    bool available = false;  // ready for an exchange
 
     bool operator==(const UavHeartbeat&) const = default;
 };
 
-// Heartbeat of the ground station, broadcast. It takes all data.
+// Heartbeat of the ground station, broadcast. The station takes all data.
 struct GroundHeartbeat {
     NodeId sender = 0;
 
@@ -35,13 +35,13 @@ struct SensorData {
 // The reply to a heartbeat: a request to exchange data and fly apart.
 struct PairRequest {
     NodeId sender = 0;
-    NodeId carrier = 0;      // the one of the two that gets all data
+    NodeId carrier = 0;      // which of the two gets all data
     std::int64_t given = 0;  // total handed to the receiver so far (see Custody)
 
     bool operator==(const PairRequest&) const = default;
 };
 
-// The reply to a PairRequest: confirmed, and done by the sender.
+// The reply to a PairRequest: the sender agrees and has done its part.
 struct PairConfirmation {
     NodeId sender = 0;
     NodeId carrier = 0;

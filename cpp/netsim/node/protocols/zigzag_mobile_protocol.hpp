@@ -26,8 +26,8 @@ struct ZigZagMobileConfig {
 };
 
 // Flies back and forth over the sensors, collects their readings and relays them to the ground
-// station. Tracked: "data", readings it holds; "collected", readings from sensors so far;
-// "interactions", exchanges so far.
+// station. Tracked: "data", readings that it holds; "collected", readings received from sensors;
+// "interactions", number of exchanges.
 class ZigZagMobileProtocol final : public Protocol {
 public:
     ZigZagMobileProtocol(Node& node, const ZigZagMobileConfig& config);
@@ -53,7 +53,7 @@ private:
     NodeId carrier_of_pair(NodeId peer, bool peer_is_homeward) const;
     // Replies to a heartbeat of `peer`.
     void ask(NodeId peer, NodeId carrier);
-    // Hands all data to `peer` if it is the carrier. Returns the total for the message to it.
+    // Hands all data to `peer` if that is the carrier. Returns the total for the message to `peer`.
     std::int64_t hand_over(NodeId peer, NodeId carrier);
     // Ends an exchange: the carrier flies towards the ground station, the other one away from it.
     void part(NodeId carrier);
