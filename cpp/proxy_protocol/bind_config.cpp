@@ -1,5 +1,5 @@
-// The config structs: their fields from the declarations (netsim/config/field.hpp), under their own names (C++'s type_name
-// is Python's typename), and the declarations themselves.
+// The config structs with their declared fields (netsim/config/field.hpp), and the declarations
+// themselves. Fields have the same names in Python, except that C++'s type_name is typename.
 #include <array>
 #include <cmath>
 #include <set>
@@ -26,7 +26,8 @@ namespace proxy_protocol {
 
 namespace {
 
-// All declared fields, and the check. A type that sets the defaults of other fields is chosen at the start only.
+// Binds all declared fields, and validate() if it exists. A typename that sets the defaults of other
+// fields is read-only: it is an argument of the constructor.
 template <typename Config>
 void bind_fields(py::class_<Config>& config) {
     constexpr bool has_fixed_type =
@@ -100,7 +101,7 @@ py::object read_by_row(const ReadBy& read_by) {
     return row;
 }
 
-// The struct with the defaults of each variant, by the name of the variant.
+// {name of the variant: default of the field}; "" is the standard variant.
 py::dict defaults_row(const Schema& schema, const Field& field) {
     static InterfaceConfig station{};
     static InterfaceConfig device{std::string(ieee802154_interface)};
@@ -213,7 +214,7 @@ void bind_config(py::module_& module) {
              py::arg("interfaces") = std::vector<std::string>{std::string(ieee80211_interface)})
         .def_readwrite("name", &NodeConfig::name)
         .def_property_readonly(
-            "wlan",  // their number is that of the start, so that references to them stay valid
+            "wlan",  // a tuple: their number is fixed, so that references to them stay valid
             [](const py::object& self) {
                 py::tuple interfaces(self.cast<NodeConfig&>().wlan.size());
                 for (std::size_t index = 0; index < interfaces.size(); ++index) {

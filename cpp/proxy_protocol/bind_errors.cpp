@@ -1,5 +1,5 @@
-// The engine's exceptions as Python exceptions. Messages contain file names, which may have any
-// bytes. A failure of a native protocol has its place in the run.
+// The engine's exceptions as Python exceptions. Messages may contain file names, and so any bytes. An
+// error of a native protocol has its node, callback and time.
 #include <cstring>
 #include <exception>
 #include <utility>
@@ -28,7 +28,7 @@ py::object exception_of(const char* name, const std::exception& error) {
     return py::module_::import("gradysim._netsim").attr(name)(text_of(error.what()));
 }
 
-// A string, (value, unit) or (full name of a field,).
+// Converts a part to a str, (value, unit) or (full name of a field,).
 struct PythonPart {
     py::object operator()(const std::string& text) const { return text_of(text.c_str()); }
     py::object operator()(const netsim::Quantity& quantity) const {

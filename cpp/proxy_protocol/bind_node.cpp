@@ -20,13 +20,13 @@ namespace proxy_protocol {
 namespace {
 
 void observe(Node& node, py::object on_telemetry, py::function on_variable) {
-    Node::OnTelemetry tell_position;
+    Node::OnTelemetry report_position;
     if (!on_telemetry.is_none()) {
-        tell_position = [&node, on_telemetry = std::move(on_telemetry)](const netsim::Position& position) {
+        report_position = [&node, on_telemetry = std::move(on_telemetry)](const netsim::Position& position) {
             on_telemetry(node.now().ps(), position.x, position.y, position.z);
         };
     }
-    node.observe(std::move(tell_position),
+    node.observe(std::move(report_position),
                  [on_variable = std::move(on_variable)](
                      std::string_view name, const netsim::TrackedValue& value) { on_variable(name, value); });
 }

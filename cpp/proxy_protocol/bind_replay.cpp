@@ -1,4 +1,4 @@
-// The recorder of a replay, and the chunks that it closes.
+// The recorder of a replay, and its chunks.
 #include <string>
 
 #include <pybind11/pybind11.h>
@@ -14,7 +14,7 @@ namespace proxy_protocol {
 
 namespace {
 
-// The name of a timer may not be UTF-8 if the protocol is native.
+// The timer name of a native protocol may be invalid UTF-8.
 py::str readable(const std::string& text) {
     PyObject* const decoded =
         PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace");

@@ -1,4 +1,4 @@
-// One function per topic; module.cpp calls them all.
+// One function per topic. module.cpp calls all of them.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,5 +1,4 @@
-// The compiled module gradysim._netsim. Its Python side is described in
-// python/gradysim/_netsim.pyi.
+// The compiled module gradysim._netsim. python/gradysim/_netsim.pyi declares its Python interface.
 #include <pybind11/pybind11.h>
 
 #include "netsim/kernel/sim_time.hpp"

@@ -23,19 +23,18 @@ constexpr long broadcast_type = 1;
 constexpr long goto_coords_type = 1;
 constexpr long set_speed_type = 3;
 
-// Attribute names, made once for the life of the interpreter.
+// An interned attribute name. Create it once: it is never released.
 PyObject* name_of(const char* text) {
     return PyUnicode_InternFromString(text);
 }
 
-// The argument does not have the attributes of a command, or one of them has the wrong type.
+// Thrown if the argument does not have the attributes of a command, or one of them has the wrong type.
 class Unreadable : public std::exception {
 public:
     const char* what() const noexcept override { return "the argument cannot be read as a command"; }
 };
 
-// An attribute of a command. An argument without it is not a command of this kind, but a str, for
-// example.
+// Returns an attribute of a command. An argument without it is not a command, but a str, for example.
 py::object attribute(py::handle command, PyObject* name) {
     PyObject* value = PyObject_GetAttr(command.ptr(), name);
     if (value == nullptr) {
@@ -73,32 +72,32 @@ std::string text(py::handle value) {
     return utf8_from_python(value);
 }
 
-// Calls a function of the validation that both modes share.
+// Calls a function of the validation module, which both modes share.
 template <typename... Arguments>
 py::object validation(const char* function, const Arguments&... arguments) {
     return py::module_::import("gradysim.encapsulator.validation").attr(function)(arguments...);
 }
 
-// Carries out a command. A failure raises that exception of gradysim.protocol.errors. `wrong`
-// returns the error of the command itself; if it is "", the engine's error text is used.
+// Carries out a command. If it fails, raises the named exception of gradysim.protocol.errors. `wrong`
+// returns what is wrong with the command; if that is "", the engine's error message is used.
 template <typename Command, typename Wrong>
 void carry_out(const char* exception, Command command, Wrong wrong) {
-    std::string words;
+    std::string engine_message;
     try {
         command();
         return;
     } catch (const netsim::SimulationError& error) {
-        words = error.what();
+        engine_message = error.what();
     } catch (const Unreadable& error) {
-        words = error.what();
+        engine_message = error.what();
     }
     const py::object problem = wrong();
     const py::object type = py::module_::import("gradysim.protocol.errors").attr(exception);
-    PyErr_SetObject(type.ptr(), (py::len(problem) > 0 ? problem : python_from_utf8(words)).ptr());
+    PyErr_SetObject(type.ptr(), (py::len(problem) > 0 ? problem : python_from_utf8(engine_message)).ptr());
     throw py::error_already_set();
 }
 
-// A user's own command may not have an interface: it goes to the first one.
+// A user-defined command may lack the attribute `interface`. It is sent through wlan[0].
 std::int32_t interface_of(py::handle command) {
     static PyObject* const interface_name = name_of("interface");
     const auto value = py::reinterpret_steal<py::object>(PyObject_GetAttr(command.ptr(), interface_name));
@@ -109,7 +108,7 @@ std::int32_t interface_of(py::handle command) {
         PyErr_Clear();
         return 0;
     }
-    if (PyLong_CheckExact(value.ptr())) {  // False for True
+    if (PyLong_CheckExact(value.ptr())) {  // excludes bool
         int overflow = 0;
         const long index = PyLong_AsLongAndOverflow(value.ptr(), &overflow);
         if (index >= 0 && index < netsim::most_interfaces) {
@@ -119,7 +118,7 @@ std::int32_t interface_of(py::handle command) {
     return validation("checked_interface", value).cast<std::int32_t>();
 }
 
-// The id of a node, or an equal number such as an integer of NumPy.
+// A node's id, from an int or another number such as a NumPy integer.
 netsim::NodeId destination_of(py::handle value) {
     if (PyLong_Check(value.ptr())) {
         int overflow = 0;
@@ -153,7 +152,7 @@ void carry_out_communication(netsim::Node& node, py::handle command) {
     node.send(destination_of(destination), std::move(payload), interface);
 }
 
-// Whether SET_SPEED sets a speed instead of a velocity. In gradysim 0.7 unused parameters are 0.
+// Whether SET_SPEED sets a speed, not a velocity. In gradysim 0.7, unused parameters are 0.
 bool is_speed(py::handle command, const py::object& second, const py::object& third) {
     return (second.is_none() && third.is_none()) || validation("is_speed", command).cast<bool>();
 }

@@ -60,7 +60,7 @@ void PythonProtocol::call(py::handle method, py::handle argument) {
 py::object PythonProtocol::text_for(py::handle method, const std::string& text) {
     try {
         return python_from_utf8(text);
-    } catch (const py::error_already_set& failure) {  // a native protocol sent bytes that are not UTF-8
+    } catch (const py::error_already_set& failure) {  // a native protocol sent invalid UTF-8
         on_failure_(failure.value(), method);
         throw;
     }

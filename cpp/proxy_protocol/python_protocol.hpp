@@ -1,7 +1,7 @@
 // The proxy protocol: a protocol of the engine that forwards every event to a Python object.
 //
-// The methods are called by name at each event, since the dispatcher plugin may replace them on the
-// instance at any time. A call by name costs as much as the same call in Python.
+// The methods are looked up by name at each event, since the dispatcher plugin may replace them on the
+// instance at any time. Such a call costs as much as the same call in Python.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -13,9 +13,9 @@ namespace proxy_protocol {
 
 class PythonProtocol final : public netsim::Protocol {
 public:
-    // `protocol` has the five methods of IProtocol. `on_failure(exception, callback_name)` is
-    // called when one of them raises, before the exception goes on through the engine to the caller
-    // of run_until.
+    // `protocol` has the five methods of IProtocol. `on_failure(exception, callback_name)` is called
+    // when one of them raises, before the exception propagates through the engine to the caller of
+    // run_until.
     PythonProtocol(pybind11::object protocol, pybind11::object on_failure);
 
     void initialize() override;

@@ -1,7 +1,7 @@
 // Conversion between Python str and UTF-8.
 //
-// Any Python string may be sent, also one with lone surrogates, which plain UTF-8 cannot hold
-// ("surrogatepass").
+// Any Python string can be sent, even one with lone surrogates, which strict UTF-8 cannot encode
+// (error handler "surrogatepass").
 #pragma once
 
 #include <string>

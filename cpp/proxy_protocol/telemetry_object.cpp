@@ -20,20 +20,20 @@ py::handle TelemetryObject::at(const netsim::Position& position) {
         PyObject* old = PyTuple_GET_ITEM(coordinates_.ptr(), axis);
         if (old != nullptr && std::bit_cast<std::uint64_t>(PyFloat_AS_DOUBLE(old)) ==
                                   std::bit_cast<std::uint64_t>(values[axis])) {
-            continue;  // vehicles often fly along an axis, and stand still
+            continue;  // vehicles often stand still or fly along an axis
         }
         PyTuple_SET_ITEM(coordinates_.ptr(), axis, py::float_(values[axis]).release().ptr());
         Py_XDECREF(old);
     }
 #if PY_VERSION_HEX >= 0x030E0000
-    reinterpret_cast<PyTupleObject*>(coordinates_.ptr())->ob_hash =
-        -1;  // of the last position, if it was asked for
+    // Reset the cached hash of the last position.
+    reinterpret_cast<PyTupleObject*>(coordinates_.ptr())->ob_hash = -1;
 #endif
     return telemetry_;
 }
 
 bool TelemetryObject::is_as_handed_out() const {
-    // A reference of this object to each, and one of each to the next.
+    // Expected references: one of this object to each, and one of each to the next.
     return telemetry_ && Py_REFCNT(telemetry_.ptr()) == 1 && Py_REFCNT(fields_.ptr()) == 2 &&
            Py_REFCNT(coordinates_.ptr()) == 2 && PyDict_GET_SIZE(fields_.ptr()) == 1 &&
            PyDict_GetItemWithError(fields_.ptr(), current_position_.ptr()) == coordinates_.ptr();

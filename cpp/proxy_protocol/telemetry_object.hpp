@@ -1,9 +1,9 @@
-// The Python Telemetry object that is passed to a protocol, up to a hundred times a second per
+// The Python Telemetry object that is passed to a protocol, up to a hundred times per second and
 // node.
 //
-// Creating one takes as long as many callbacks. So the last one is reused, as zip() does with its
-// tuples, if the protocol cannot notice: it kept no reference to the object, its fields or its
-// position, and did not change it.
+// Creating one takes as long as many callbacks. So the last one is reused if the protocol cannot
+// notice, as zip() does with its tuples. That is, the protocol did not change the object, and kept no
+// reference to it, its fields or its position.
 #pragma once
 
 #include <pybind11/pybind11.h>

@@ -1,8 +1,8 @@
-"""Writes what follows from the declarations of the engine's fields: keys of .ini files, and a type stub.
+"""Generate files from the declarations of the engine's fields: the keys of .ini files, and a type stub.
 
     make schema
 
-Run it after a change of a declaration in cpp/netsim/config; a test fails while the files are stale.
+Run it after changing a declaration in cpp/netsim/config. A test fails while the files are stale.
 """
 
 import json
@@ -18,17 +18,17 @@ SCHEMA = PACKAGE / "scenario" / "schema.json"
 STUB = PACKAGE / "_netsim_fields.pyi"
 
 FIXED_TYPES = ("medium", "interface")
-"""Structs whose type sets the defaults of other fields: it is given at the start."""
+"""Structs whose type sets the defaults of other fields, and is read-only."""
 
 
 def schema_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The declarations as JSON, a line each."""
+    """Return the declarations as JSON, one per line."""
     lines = ",\n".join(json.dumps(row, ensure_ascii=False) for row in rows)
     return f"[\n{lines}\n]\n"
 
 
 def stub_text(rows: Sequence[Mapping[str, Any]]) -> str:
-    """A class with the fields of each struct, which the class of the struct inherits in _netsim.pyi."""
+    """Return one class per struct with its fields, which the struct's class in _netsim.pyi inherits."""
     lines = [
         '"""The declared fields of the config structs. Written by `make schema`; do not edit."""',
         "",

@@ -1,7 +1,7 @@
-// A histogram of delays: exact sums and extremes, and counts in bins.
+// A histogram of delays: sums, minimum and maximum, and counts in bins.
 //
-// Each octave has 32 bins of equal width. So quantiles are accurate to 3 % for any delay, and
-// adding a value takes a few instructions. Source of the bins: G. Tene, HdrHistogram,
+// Each octave (factor of two) has 32 bins of equal width. So quantiles are accurate to 3 % for any
+// delay, and adding a value takes a few instructions. Source of the bins: G. Tene, HdrHistogram,
 // hdrhistogram.org.
 #pragma once
 
@@ -40,10 +40,10 @@ public:
     std::uint64_t count() const;
     double sum_s() const { return sum_ps_ / 1e12; }
     double sum_of_squares_s2() const { return sum_of_squares_ps2_ / 1e24; }
-    // Only if there is a delay.
+    // Only when not empty.
     SimTime min() const { return min_; }
     SimTime max() const { return max_; }
-    // The bins that are not empty, by time.
+    // The bins that are not empty, in rising order.
     std::vector<Bin> bins() const;
 
 private:

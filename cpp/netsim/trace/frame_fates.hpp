@@ -1,9 +1,9 @@
 // Outcomes of frames: one for each reception of each frame.
 //
-// A transmission makes one possible reception at every other radio that knows its format and
-// listens to its band, at any distance. Every reception has exactly one outcome. So for each kind of
-// frame, receptions = sum over the outcomes. The medium counts receptions below the sensitivity in
-// bulk; the radios count the others one by one.
+// A transmission counts as one reception at every other radio that knows its format and listens to
+// its band, at any distance. Every reception has exactly one outcome. So for each kind of frame,
+// receptions = sum over the outcomes. The medium counts receptions below the sensitivity in bulk; the
+// radios count the others one by one.
 #pragma once
 
 #include <array>
@@ -27,18 +27,18 @@ enum class FrameFate : std::uint8_t {
     noise,                  // locked on and lost; would have been lost without interference
     interference,           // locked on and lost; would have been decoded without interference
     receiver_transmitting,  // the receiver was transmitting when it arrived, or started to transmit during it
-    receiver_locked,        // the receiver was locked on to another frame when it arrived
-    preamble_undetected,  // its preamble was too weak, or too weak relative to others: ThresholdPreambleDetection
-    header_error,         // locked on, but its PHY header was lost: SNIR by chunks
-    captured,             // locked on, dropped for a stronger one: SimpleFrameCapture
-    in_air,               // still on the air when the run ended
+    receiver_locked,        // the receiver locked on to another frame
+    preamble_undetected,    // its preamble was too weak, absolutely or relative to others: preamble detection
+    header_error,           // locked on, but its PHY header was lost: SNIR by chunks
+    captured,               // locked on, then dropped for a stronger frame: frame capture
+    in_air,                 // no outcome yet: still on the air
 };
 constexpr std::size_t frame_fate_count = 10;
 constexpr std::array<const char*, frame_fate_count> frame_fate_names{
     "delivered",       "below_sensitivity",   "noise",        "interference", "receiver_transmitting",
     "receiver_locked", "preamble_undetected", "header_error", "captured",     "in_air"};
 
-// Number of receptions of a transmission, and of those below the sensitivity.
+// Numbers of receptions of a transmission: all, and those below the sensitivity.
 struct CopyCount {
     std::uint64_t made = 0;
     std::uint64_t too_weak = 0;
@@ -46,21 +46,20 @@ struct CopyCount {
 
 class FrameFates {
 public:
-    // counts[outcome] of the receptions of one kind, at their addressees or overheard by others.
+    // [outcome]: number of receptions of one kind of frame.
     using Counts = std::array<std::uint64_t, frame_fate_count>;
 
     void add_node() { interferers_.add_node(); }
 
-    // Notified of every frame from now on; none if null.
+    // Sets the observer of every frame from now on; null for none.
     void set_observer(FrameObserver* observer) { observer_ = observer; }
     FrameObserver* observer() const { return observer_; }
 
     // The reception of `label`'s frame at `receiver` ended.
     void book(NodeId receiver, FrameLabel label, FrameFate fate);
-    // That reception was lost to interference by frames of `interferers` (nodes; each once).
+    // The same for a reception lost to interference by frames of `interferers` (nodes; each once).
     void book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers);
-    // A frame went on the air with these receptions, some of which are below the sensitivity of their
-    // receivers.
+    // A frame was transmitted, with these numbers of receptions.
     void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
 
     // Prefetches the count of that outcome, which will be incremented soon.
@@ -75,8 +74,8 @@ public:
     std::uint64_t copies(FrameKind kind, bool overheard) const {
         return (overheard ? overheard_ : addressed_)[index(kind)].copies;
     }
-    // Sums over all receivers. Receptions without an outcome yet are in_air. `overheard` selects
-    // receptions of frames for other nodes; broadcast frames are for all.
+    // Sums over all receivers. Receptions without an outcome so far are in_air. `overheard`: whether
+    // to count receptions of frames for other nodes; a broadcast frame is for all nodes.
     Counts counts(FrameKind kind, bool overheard) const;
     // Receptions at one node that reached its sensitivity (below_sensitivity is not counted per
     // node).
@@ -95,10 +94,9 @@ private:
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
     static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
 
-    // Counts of one kind and one outcome, by receiver.
+    // [receiver]: number of receptions of one kind and one outcome. Empty if there are none.
     using Column = std::vector<std::uint64_t>;
-    // [kind][outcome]. Each reception adds to one number, usually `delivered`, and a cache line has
-    // eight of them. A column without counts is empty.
+    // [kind][outcome]. In this layout, a cache line has eight of the most used counts, `delivered`.
     std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
     FrameObserver* observer_ = nullptr;
     Interferers interferers_;

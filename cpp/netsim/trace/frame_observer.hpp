@@ -1,5 +1,5 @@
-// Observer of every frame of a network, and of its outcome at each receiver. It does not change the
-// run. A network without an observer pays one test per frame and reception.
+// Observer of every frame of a network and its outcome at each receiver. It does not change the run.
+// Without an observer, the cost is one test per frame and reception.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,19 @@ class FrameObserver {
 public:
     virtual ~FrameObserver() = default;
 
-    // A frame that a receiver was locked on to, and lost.
+    // The loss of a frame that a receiver was locked on to.
     struct Loss {
         double power_w = 0;
         double interference_w = 0;              // 0: lost to noise
-        std::span<const NodeId> interferers{};  // from strong to weak
+        std::span<const NodeId> interferers{};  // strongest first
     };
 
-    // A frame starts. Of its receptions, `noticed` will end, each with an outcome; the others are
+    // A frame starts. For `noticed` of its receptions, reception_ends will be called. `too_weak` are
     // below the sensitivity.
     virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed,
                               std::uint64_t too_weak) = 0;
     virtual void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) = 0;
-    // Before reception_ends.
+    // Called before reception_ends for a loss to noise or interference.
     virtual void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) = 0;
 };
 

@@ -1,8 +1,8 @@
 // Receptions lost to interference, by receiver and interfering node.
 //
-// In a large network, the counter of a pair is in no cache, and waiting for it would take longer
-// than the rest of a loss. So losses are logged first and counted several hundred at a time, with
-// their counters prefetched together (kernel/prefetch.hpp).
+// In a large network, the counter of a pair is not in a cache, and waiting for it would take longer
+// than all other work for a loss. So losses are first stored in a list, and then counted several
+// hundred at a time with prefetched counters (kernel/prefetch.hpp).
 #pragma once
 
 #include <cstddef>
@@ -32,7 +32,7 @@ private:
     };
     struct Count {
         NodeId node = 0;
-        // 32 bits, since there are many pairs. Overflow would take years of frames.
+        // 32 bits, since there are many pairs. Overflow would take years of simulated time.
         std::uint32_t copies = 0;
     };
 

@@ -1,8 +1,8 @@
-// Outcomes of messages that one network interface, or several, accepted.
+// Outcomes of the messages that network interfaces accepted.
 //
-// Each interface counts its own, next to its queue. The counts of a network are their sum, computed
-// on demand. A message is queued until it has another outcome, so messages accepted = sum over the
-// outcomes. Tests on random scenarios check that each message is counted once.
+// Each interface counts its own messages, next to its queue. The counts of a network are the sums,
+// computed on demand. A message is queued until it has another outcome, so accepted messages = sum
+// over the outcomes. Tests on random scenarios check that each message is counted once.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ constexpr std::array<const char*, message_fate_count> message_fate_names{
     "sent",         "acknowledged",           "retry_limit", "queue_overflow",
     "out_of_range", "channel_access_failure", "queued"};
 
-// Of one interface.
+// Counts of one interface.
 class MessageFates {
 public:
     using Counts = std::array<std::uint64_t, message_fate_count>;
@@ -46,16 +46,15 @@ public:
 private:
     static_assert(static_cast<std::size_t>(MessageFate::queued) == message_fate_count - 1);
 
-    // 32 bits: one more cache line per 802.11 interface makes large networks 2 % slower. Reaching
-    // the limit takes days of a channel that is never free. After 4,294,967,295 messages, the
-    // counts begin again at 0.
+    // 32 bits: one more cache line per 802.11 interface makes large networks 2 % slower. Overflow,
+    // after 4,294,967,295 messages, takes days of simulated time on a saturated channel.
     using Count = std::uint32_t;
     std::array<Count, message_kind_count> accepted_{};
     // All outcomes but queued.
     std::array<std::array<Count, message_fate_count - 1>, message_kind_count> ended_{};
 };
 
-// Of several interfaces.
+// Sums over several interfaces.
 class MessageFateSums {
 public:
     using Counts = MessageFates::Counts;

@@ -29,7 +29,7 @@ PcapWriter::PcapWriter(std::string path, LinkType link_type)
     append_le32(header, nanosecond_magic);
     append_le16(header, 2);  // version 2.4
     append_le16(header, 4);
-    append_le32(header, 0);
+    append_le32(header, 0);  // two reserved fields
     append_le32(header, 0);
     append_le32(header, longest_packet_bytes);
     append_le32(header, static_cast<std::uint32_t>(link_type));
@@ -51,8 +51,8 @@ void PcapWriter::write(SimTime time, const Octets& packet) {
     record_header_.clear();
     append_le32(record_header_, static_cast<std::uint32_t>(ns / ns_per_s));
     append_le32(record_header_, static_cast<std::uint32_t>(ns % ns_per_s));
-    append_le32(record_header_, length);  // in this file
-    append_le32(record_header_, length);  // on the air
+    append_le32(record_header_, length);  // captured length
+    append_le32(record_header_, length);  // original length
     write_octets(record_header_);
     write_octets(packet);
 }

@@ -9,7 +9,7 @@ namespace netsim {
 
 namespace {
 
-// Bits of the presence word, in the order of the fields.
+// Bits of the "present" bitmask, in the order of the fields.
 constexpr std::uint32_t has_flags = 1U << 1;
 constexpr std::uint32_t has_rate = 1U << 2;
 constexpr std::uint32_t has_channel = 1U << 3;

@@ -1,5 +1,4 @@
-// The radiotap header before each 802.11 frame in a capture file: data of the radio in addition to
-// the octets.
+// The radiotap header before each 802.11 frame in a capture file: bitrate, channel and powers.
 //
 // Source: radiotap.org, fields Flags, Rate, Channel, Antenna signal, Antenna noise and TX power.
 #pragma once
@@ -23,12 +22,12 @@ struct Radiotap {
     std::int64_t bitrate_bps = 0;
     double carrier_hz = 0;
     ChannelModulation modulation = ChannelModulation::ofdm;
-    double tx_power_w = 0;             // of a frame that was sent
-    std::optional<Received> received;  // of a frame that was received, which has no TX power
+    double tx_power_w = 0;             // only for a sent frame
+    std::optional<Received> received;  // only for a received frame
 };
 
-// Appends the header. Powers are rounded to dBm within -128 … 127, the frequency to MHz within 0 …
-// 65535.
+// Appends the header. Powers are rounded to integer dBm within -128 … 127, and the frequency to
+// integer MHz within 0 … 65535.
 void append_radiotap(Octets& octets, const Radiotap& radiotap);
 
 }  // namespace netsim
