@@ -29,7 +29,7 @@ public:
     virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed,
                               std::uint64_t too_weak) = 0;
     virtual void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) = 0;
-    // Called before reception_ends for a loss to noise or interference.
+    // Called before reception_ends, for a reception that ends with the frame and is lost.
     virtual void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) = 0;
 };
 

@@ -1,4 +1,4 @@
-"""Consensus on the values of named variables, by Raft."""
+"""Raft consensus on the values of named variables."""
 
 from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
 from gradysim.protocol.plugin.raft.raft_config import RaftConfig, RaftMode

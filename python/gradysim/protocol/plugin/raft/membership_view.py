@@ -10,7 +10,7 @@ from gradysim.protocol.plugin.raft.raft_message import RaftMessage
 
 @dataclass(frozen=True)
 class LeaderView:
-    """What a leader reported about active nodes: how many, their ids if it sent them, and when (s)."""
+    """Report of a leader about active nodes: how many, their ids if it sent them, and when (s)."""
 
     count: int
     nodes: frozenset[int] | None
@@ -18,13 +18,13 @@ class LeaderView:
 
 
 class MembershipView:
-    """Members of the cluster. It starts with the node itself and grows with every node heard of.
+    """Members of the cluster. At first, only the node itself; then every node that it hears of.
 
     Attributes:
-        known: Ids of all members, including the node's own.
-        is_fixed: Whether `fix` has set the members. All other nodes are ignored then.
-        cluster_id: Cluster of the node. None is a cluster, too.
-        detector: Detects failures by the answers that this node gets as the leader.
+        known: Ids of all members, including the node itself.
+        is_fixed: Whether `fix` has set the members. Other nodes are then ignored.
+        cluster_id: Cluster of the node. Nodes with None form a cluster, too.
+        detector: Detects failures by the answers that this node receives as the leader.
         leader_view: Latest report of the leader that this node follows, if any.
     """
 
@@ -44,11 +44,11 @@ class MembershipView:
 
     @property
     def is_single_node(self) -> bool:
-        """Whether the members were set to the node alone. It needs no other node then."""
+        """Whether the members were set to the node alone. It then needs no other node."""
         return self.is_fixed and len(self.known) == 1
 
     def fix(self, node_ids: Iterable[int]) -> None:
-        """Set the members. The node itself is always one."""
+        """Set the members. The node itself is always a member."""
         self.is_fixed = True
         self._set_known(frozenset({*node_ids, self._own_id}))
 
@@ -88,11 +88,11 @@ class MembershipView:
         self.detector.on_heartbeat_sent()
 
     def detected(self) -> frozenset[int]:
-        """Return the ids of the members that the detector considers active, and the node's own."""
+        """Return the ids of the members that the detector considers active, including the node itself."""
         return (self.known & self.detector.get_active_nodes()) | {self._own_id}
 
     def active_for_follower(self, since_s: float) -> frozenset[int]:
-        """Return the ids that the leader reported at `since_s` or later; else those detected here."""
+        """Return the active ids that the leader reported at `since_s` or later, or else those detected."""
         view = self.fresh_leader_view(since_s)
         if view is None or view.nodes is None:
             return self.detected()

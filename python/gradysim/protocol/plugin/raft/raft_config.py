@@ -1,4 +1,4 @@
-"""Settings of the consensus."""
+"""Settings of the Raft consensus."""
 
 import random
 from enum import Enum
@@ -11,11 +11,11 @@ _LOG_LEVELS = ("DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")
 
 
 class RaftMode(Enum):
-    """Which nodes an election and a commit need a majority of.
+    """Set of nodes of which an election or a commit needs a majority.
 
     Attributes:
         CLASSIC: All known nodes, as in the Raft paper.
-        FAULT_TOLERANT: Nodes that are seen active. It continues with few nodes, with weaker guarantees.
+        FAULT_TOLERANT: Nodes that are seen active. This works with few nodes, but with weaker guarantees.
     """
 
     CLASSIC = "classic"
@@ -37,7 +37,7 @@ class RaftConfig:
         self._failure_config.set_heartbeat_interval_reference(self._heartbeat_interval)
 
     def set_election_timeout(self, min_timeout: int, max_timeout: int) -> Self:
-        """Set the range of the election timeout in ms. Each timeout is drawn from it.
+        """Set the range of the election timeout in ms. Each timeout is drawn from it at random.
 
         Raise ValueError if a bound is negative, or the lower one is not below the upper one.
         """
@@ -64,8 +64,8 @@ class RaftConfig:
     def add_consensus_variable(self, name: str, var_type: type) -> Self:
         """Add a variable to agree on. All nodes should have the same variables.
 
-        Its values are of a type that JSON carries unchanged, such as int, float, str, bool, list and dict, or
-        tuples. ValueError if the name is empty or taken, or the type is not a type.
+        Its values must have a type that JSON preserves, such as int, float, str, bool, list and dict, or be
+        tuples. Raise ValueError if the name is empty or taken, or the type is not a type.
         """
         if not isinstance(name, str) or not name:
             raise ValueError(
@@ -79,7 +79,7 @@ class RaftConfig:
         return self
 
     def remove_consensus_variable(self, name: str) -> Self:
-        """Remove a variable. Do nothing if there is none of that name."""
+        """Remove a variable. Do nothing if there is no such variable."""
         self._consensus_variables.pop(name, None)
         return self
 
@@ -103,17 +103,17 @@ class RaftConfig:
 
     @property
     def election_timeout_min_ms(self) -> int:
-        """Shortest election timeout."""
+        """Shortest election timeout in ms."""
         return self._election_timeout_min
 
     @property
     def election_timeout_max_ms(self) -> int:
-        """Longest election timeout."""
+        """Longest election timeout in ms."""
         return self._election_timeout_max
 
     @property
     def heartbeat_interval_ms(self) -> int:
-        """Heartbeat interval of the leader."""
+        """Heartbeat interval of the leader in ms."""
         return self._heartbeat_interval
 
     @property

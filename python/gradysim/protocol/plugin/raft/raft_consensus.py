@@ -1,4 +1,4 @@
-"""The consensus plugin: lets a protocol agree with other nodes on the values of variables."""
+"""The consensus plugin: a protocol agrees with other nodes on the values of variables."""
 
 import logging
 from collections.abc import Iterable, Mapping
@@ -20,11 +20,11 @@ _logger = logging.getLogger(__name__)
 
 
 class RaftConsensusPlugin:
-    """Consensus by Raft among the nodes whose protocols have this plugin.
+    """Raft consensus among the nodes whose protocols have this plugin.
 
-    Create it in `initialize` or later, set the members with `set_known_nodes` and call `start`. The node that
-    is elected leader can propose values. All nodes see them once they are committed. Messages and timers of
-    the plugin do not reach the protocol::
+    Create it in `initialize` or later, set the members with `set_known_nodes` and call `start`. The elected
+    leader can propose values. All nodes see a value once it is committed. Messages and timers of the plugin
+    do not reach the protocol::
 
         def initialize(self) -> None:
             config = RaftConfig().add_consensus_variable("target", int).set_raft_mode(RaftMode.CLASSIC)
@@ -36,8 +36,8 @@ class RaftConsensusPlugin:
     def __init__(self, config: RaftConfig, protocol: IProtocol) -> None:
         """Attach the plugin to a `protocol` that has its provider. All nodes should have the same settings.
 
-        ValueError if the configuration is not valid, the protocol has no provider or one that lacks a method,
-        or the node's id is not an integer >= 0.
+        Raise ValueError if the configuration is not valid, the protocol has no provider or one that lacks a
+        method, or the node's id is not an integer >= 0.
         """
         if not isinstance(config, RaftConfig):
             raise ValueError(f"config must be a RaftConfig, got {config!r}")
@@ -69,15 +69,15 @@ class RaftConsensusPlugin:
         self._node.start()
 
     def stop(self) -> None:
-        """Stop the node. It keeps its term, vote and log. Do nothing if it does not run."""
+        """Stop the node. It keeps its term, vote and log. Do nothing if it is not running."""
         self._node.stop()
 
     def set_known_nodes(self, node_ids: Iterable[int]) -> None:
-        """Set the members. The node itself always is one. Messages of other nodes are ignored from then on.
+        """Set the members. The node itself is always a member. Messages from other nodes are then ignored.
 
-        Use the same members on all nodes. Without this call a node considers every node that it hears of a
-        member. Change members one node at a time while values are proposed. ValueError if an id is not an
-        integer >= 0.
+        Use the same members on all nodes. Without this call, every node that this node hears of becomes a
+        member. While values are proposed, add or remove one member at a time. Raise ValueError if an id is
+        not an integer >= 0.
         """
         ids = list(node_ids)
         for node_id in ids:
@@ -90,16 +90,16 @@ class RaftConsensusPlugin:
 
         Args:
             variable_name: A configured variable.
-            value: Value of its type. All nodes get what comes out of JSON. Inside the value, tuples become
-                lists and keys of dicts become strings.
+            value: Value of the variable's type. All nodes get the value as decoded from JSON: inside it,
+                tuples become lists and keys of dicts become strings.
 
         Returns:
-            False if this node is not the leader; nothing happens then. True if the value is in the leader's
-            log. It is committed once a majority has it, and `get_committed_value` returns it then. A leader
-            that is deposed before that may lose the value.
+            True if this node is the leader and the value is in its log. Once a majority has the value, it is
+            committed, and `get_committed_value` returns it. If the leader is deposed before that, the value
+            may be lost. False if this node is not the leader; then nothing happens.
 
         Raises:
-            ValueError: There is no such variable, the value is not of its type, or JSON cannot carry it.
+            ValueError: There is no such variable, the value is not of its type, or JSON cannot encode it.
         """
         var_type = self._type_of(variable_name)
         return self._node.propose(variable_name, json_value(variable_name, var_type, value))
@@ -117,7 +117,7 @@ class RaftConsensusPlugin:
         return self._values_by_variable(self._node.persistent.log.values)
 
     def send_broadcast(self, message: str) -> None:
-        """Broadcast a text behind the plugin's prefix. Other nodes ignore it unless it is a Raft message.
+        """Broadcast a string with the plugin's prefix. Other nodes ignore it unless it is a Raft message.
 
         Raise ValueError if it is not a string.
         """
@@ -136,7 +136,7 @@ class RaftConsensusPlugin:
         return self._node.state is RaftState.LEADER
 
     def get_leader_id(self) -> int | None:
-        """Return the id of the leader that this node follows, or its own; None if it knows no leader."""
+        """Return the id of the current leader, which may be this node, or None if it knows no leader."""
         return self._node.leader_id
 
     def get_current_term(self) -> int:
@@ -152,7 +152,7 @@ class RaftConsensusPlugin:
         return not self._config.validate()
 
     def get_state_info(self) -> dict[str, Any]:
-        """Return the full state as plain data. `consensus_values` includes values not yet committed."""
+        """Return the full state. `consensus_values` includes values that are not committed."""
         node, persistent = self._node, self._node.persistent
         return {
             "node_id": node.node_id,
@@ -200,7 +200,7 @@ class RaftConsensusPlugin:
         return self._config.get_consensus_variable_type(variable_name)
 
     def get_configuration(self) -> dict[str, Any]:
-        """Return all settings as plain data."""
+        """Return all settings as `RaftConfig.to_dict` does."""
         return self._config.to_dict()
 
     # ---- active and failed nodes ---------------------------------------------------------------------------
@@ -313,10 +313,11 @@ class RaftConsensusPlugin:
     get_is_active = is_simulation_active
 
     def set_simulation_active(self, node_id: int, active: bool) -> None:
-        """Simulate a failure of this node (False), or its recovery (True). ValueError if it is not a bool.
+        """Simulate a failure of this node (False), or its recovery (True).
 
-        A failed node sends and receives nothing. A leader gives up its term first. The node keeps its term,
-        vote and log. The id of another node only logs a warning: call the plugin of that node.
+        A failed node sends and receives nothing. It keeps its term, vote and log, but a leader first gives
+        up its term. With the id of another node, this only logs a warning: use that node's plugin. Raise
+        ValueError if `active` is not a bool.
         """
         if not isinstance(active, bool):
             raise ValueError(f"active must be True or False, got {active!r}")
@@ -332,13 +333,13 @@ class RaftConsensusPlugin:
     set_is_active = set_simulation_active
 
     def get_failure_detection_metrics(self) -> dict[str, Any]:
-        """Return counters and times of the failure detection as plain data."""
+        """Return counters and times of the failure detection."""
         return self._node.membership.detector.get_detection_metrics()
 
     # ---- clusters ------------------------------------------------------------------------------------------
 
     def set_cluster_id(self, cluster_id: int | None) -> None:
-        """Set the cluster. The node ignores nodes of other clusters from now on. None is a cluster, too.
+        """Set the cluster. The node then ignores other clusters. Nodes with None form a cluster, too.
 
         Raise ValueError if it is not None or an integer >= 0.
         """
@@ -400,7 +401,7 @@ class RaftConsensusPlugin:
         return {name: typed_value(var_type, values.get(name)) for name, var_type in variables.items()}
 
     def _detection(self) -> tuple[str, float]:
-        """Return how the active nodes are known, and the time of that information; s."""
+        """Return how the active nodes are known, and the time (s) of that information."""
         node, membership = self._node, self._node.membership
         reported_s = 0.0 if membership.leader_view is None else membership.leader_view.time_s
         if self._config.is_classic_mode():

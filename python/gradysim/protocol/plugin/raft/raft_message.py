@@ -1,7 +1,7 @@
 """The messages between nodes: JSON objects with a `type`.
 
-Every message also has the sender's cluster and the members that it knows. Fields with a default may be
-missing, as in messages of gradysim 0.8.
+Every message also has the sender's cluster and the members that the sender knows. Fields with a default may
+be missing, as in messages of gradysim 0.8.
 """
 
 import json
@@ -44,7 +44,7 @@ class RaftMessage:
 
     @classmethod
     def from_json(cls, json_str: str) -> Self:
-        """Read a message of this type. ValueError if the text is not one."""
+        """Read a message of this type. Raise ValueError if the string is not one."""
         message = parse_message(json_str)
         if not isinstance(message, cls):
             raise ValueError(f"expected a {cls.__name__}, got a {type(message).__name__}")
@@ -53,7 +53,7 @@ class RaftMessage:
 
 @dataclass
 class RequestVote(RaftMessage):
-    """Request of a candidate for votes. Its log ends at `last_log_index`, with `last_log_term`."""
+    """Request of a candidate for votes. Its log ends at `last_log_index`, with term `last_log_term`."""
 
     SENDER: ClassVar[str] = "candidate_id"
 
@@ -65,7 +65,7 @@ class RequestVote(RaftMessage):
 
 @dataclass
 class RequestVoteResponse(RaftMessage):
-    """Answer to `RequestVote`. `term` is the voter's: that of the election if the vote was granted."""
+    """Answer to `RequestVote`. `term` is the voter's term: the election's if the vote was granted."""
 
     SENDER: ClassVar[str] = "voter_id"
 
@@ -81,7 +81,7 @@ class AppendEntries(RaftMessage):
     Attributes:
         term: Term of the leader.
         leader_id: Id of the leader.
-        consensus_values: Committed value of each variable, None for none.
+        consensus_values: Committed value of each variable, or None if there is none.
         term_number: Index of the last entry of the log.
         active_nodes_count: Number of nodes that the leader considers active.
         active_nodes_list: Their ids.
@@ -122,7 +122,7 @@ class AppendEntriesResponse(RaftMessage):
 
 @dataclass
 class DiscoveryHeartbeat(RaftMessage):
-    """Request before an election: which nodes are there, and would vote for the sender?
+    """Request before an election: asks which nodes are there and would vote for the sender.
 
     Attributes:
         term: Term of the sender.
@@ -155,7 +155,7 @@ class DiscoveryHeartbeatResponse(RaftMessage):
 def parse_message(text: str) -> RaftMessage:
     """Read a message of any type.
 
-    Raise ValueError if the text is not JSON or not a message, or a field is missing or has a wrong type.
+    Raise ValueError if the string is not JSON or not a message, or a field is missing or has a wrong type.
     """
     content = _content_of(text)
     message_type = _TYPES.get(str(content.get("type")))
@@ -221,29 +221,29 @@ _CHECKS: Mapping[Any, tuple[Callable[[Any], bool], str]] = {
         "a list of [term, name, value]",
     ),
 }
-"""What a field of each type must be in a message."""
+"""Check and description of the valid values, for each type of field."""
 
 _TYPES: dict[str, type[RaftMessage]] = {kind.__name__: kind for kind in RaftMessage.__subclasses__()}
 _FIELDS = {message_type: fields(message_type) for message_type in _TYPES.values()}
 
 
 class MessageFactory:
-    """Reader of messages, as in gradysim 0.8. Types added to it are not added to the consensus."""
+    """Reader of messages, as in gradysim 0.8. The consensus itself does not use types registered here."""
 
     _message_types: ClassVar[dict[str, type[RaftMessage]]] = dict(_TYPES)
 
     @classmethod
     def create_from_json(cls, json_str: str) -> RaftMessage:
-        """Read a message of any registered type, by the `from_json` of its class.
+        """Read a message of any registered type with the `from_json` of its class.
 
-        Raise ValueError if the text is not JSON or not a message.
+        Raise ValueError if the string is not JSON or not a message.
         """
         message_type = cls._message_types.get(str(_content_of(json_str).get("type")))
         return parse_message(json_str) if message_type is None else message_type.from_json(json_str)
 
     @classmethod
     def register_message_type(cls, message_type: str, message_class: type[RaftMessage]) -> None:
-        """Read messages of that `type` by that class, in this process from now on.
+        """Read messages of that `type` with that class, in this process and from now on.
 
         Raise ValueError if the class has no `from_json`.
         """

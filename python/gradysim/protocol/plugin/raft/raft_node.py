@@ -3,9 +3,9 @@
 It follows "In Search of an Understandable Consensus Algorithm" (Ongaro, Ousterhout 2014), cited as "Raft",
 and the chapters on elections of Ongaro's dissertation (2014). The differences:
 
-- A term belongs to one node (`next_own_term`), so no term has two leaders, whatever counts as a majority.
+- A term belongs to one node (`next_own_term`), so no term has two leaders, even if majorities do not overlap.
 - Every heartbeat carries the whole log: the committed values and the few entries after them. It is both
-  AppendEntries and InstallSnapshot of the paper. One that arrives makes up for all that were lost.
+  AppendEntries and InstallSnapshot of the paper. One received heartbeat makes up for all lost ones.
 - Before an election a node asks which nodes are there and would vote for it. This discovery is the PreVote
   of the dissertation. Nodes that hear a leader refuse, and a leader without a majority steps down.
 """
@@ -45,10 +45,10 @@ HEARTBEAT_TIMER = "heartbeat"
 DISCOVERY_TIMER = "discovery_timeout"
 
 _DISCOVERY_ROUNDS = 6
-# Random factor of heartbeat and discovery timers, so that nodes do not stay in step.
+# Range of the random factor of heartbeat and discovery timers, so that nodes do not stay synchronized.
 _JITTER = (0.9, 1.1)
-# All nodes answer a broadcast. To avoid collisions, replies wait for up to this share of a heartbeat
-# interval, and for at most this time.
+# All nodes answer a broadcast. To avoid collisions, a reply waits for a random time of up to this fraction
+# of a heartbeat interval, and at most this time.
 _REPLY_SPREAD = 0.1
 _REPLY_SPREAD_MAX_S = 0.005
 
@@ -63,10 +63,10 @@ class RaftNode:
         membership: Which nodes are members, and which of them are active.
         transport: Messages and timers.
         leader_id: Leader of the current term, if the node knows one.
-        leader_heard_s: Time of the latest AppendEntries of that leader; s.
+        leader_heard_s: Time (s) of the latest AppendEntries of that leader.
         is_running: Whether the node is between `start` and `stop`.
         is_active: Whether `set_active` lets the node send and receive.
-        discovery: State of the discovery; None while there is none.
+        discovery: State of the discovery; None if none is in progress.
         election: State of the candidate; None for other roles.
         leadership: State of the leader; None for other roles.
     """
@@ -74,7 +74,7 @@ class RaftNode:
     def __init__(
         self, config: RaftConfig, provider: IProvider, persistent: PersistentState | None = None
     ) -> None:
-        """Create a follower, with the state that a crash has left if `persistent` is given."""
+        """Create a follower. `persistent`: its state before a crash."""
         self.config = config
         self.node_id = provider.get_id()
         self.persistent = persistent or PersistentState()
@@ -98,7 +98,7 @@ class RaftNode:
     # ---- starting, stopping and incoming events ------------------------------------------------------------
 
     def start(self) -> None:
-        """Start as a follower. If the node runs already, only restart its election timeout."""
+        """Start as a follower. If the node is running already, only restart its election timeout."""
         self.is_running = True
         if self.is_active and self.state is not RaftState.LEADER:
             self._restart_election_timer()
@@ -121,12 +121,12 @@ class RaftNode:
             self._restart_election_timer()
 
     def set_known_nodes(self, node_ids: Iterable[int]) -> None:
-        """Set the members. Other nodes are ignored from then on."""
+        """Set the members. Other nodes are then ignored."""
         self.membership.fix(node_ids)
         self._commit_majority()
 
     def send_text(self, text: str) -> None:
-        """Broadcast a text that need not be a message of the consensus."""
+        """Broadcast a string, which need not be a Raft message."""
         if self.is_active:
             self.transport.broadcast_text(text)
 
@@ -147,7 +147,7 @@ class RaftNode:
             self.transport.send_next_reply()
 
     def handle_message(self, text: str) -> None:
-        """Handle a message. Ignore texts that are not one."""
+        """Handle a message. Ignore strings that are not messages."""
         if not (self.is_running and self.is_active):
             return
         try:
@@ -196,7 +196,7 @@ class RaftNode:
             self._restart_election_timer()
 
     def active_nodes(self) -> frozenset[int]:
-        """Return the ids of the members that are considered active. In classic mode these are all members."""
+        """Return the ids of the members that are considered active: in classic mode, all members."""
         if self.config.is_classic_mode():
             return self.membership.known
         if self.leadership is not None:
@@ -204,9 +204,9 @@ class RaftNode:
         return self.membership.active_for_follower(self.lease_start_s())
 
     def electorate(self) -> frozenset[int]:
-        """Return the ids of the nodes whose majority decides, including the node's own.
+        """Return the ids of the nodes of which a majority decides, including this node.
 
-        These are the members in classic mode, and those seen active in fault-tolerant mode.
+        These are all members in classic mode, and the members seen active in fault-tolerant mode.
         """
         if self.election is not None and self.config.is_fault_tolerant_mode():
             return (self.membership.known & self.election.seen) | {self.node_id}
@@ -231,7 +231,7 @@ class RaftNode:
         )
 
     def lease_start_s(self) -> float:
-        """Return the time from which on answers and reports are still valid; s."""
+        """Return the earliest time (s) of answers and reports that are still valid."""
         lease_ms = max(self.config.election_timeout_max_ms, self.config.get_failure_config().get_timeout_ms())
         return self.transport.now_s() - lease_ms / 1000
 
@@ -308,7 +308,7 @@ class RaftNode:
         self._reply(RequestVoteResponse(persistent.current_term, granted, self.node_id), message.candidate_id)
 
     def _would_vote(self, message: RequestVote | DiscoveryHeartbeat, known_before: frozenset[int]) -> bool:
-        """Whether this node hears no leader, and the sender knows all members and has an up-to-date log."""
+        """Whether this node hears no leader, and the sender knows all members and its log is up to date."""
         if self.hears_leader():
             return False
         if not self.membership.is_fixed:
@@ -333,7 +333,7 @@ class RaftNode:
             self._continue_discovery()
 
     def _continue_discovery(self) -> None:
-        """Start the next round of requests. After the last one decide whether to be a candidate."""
+        """Start the next round of requests. After the last one, decide whether to become a candidate."""
         discovery = self.discovery
         if discovery is None:
             return
@@ -368,7 +368,7 @@ class RaftNode:
         if message.would_vote:
             discovery.willing.add(message.responder_id)
         if not self.membership.is_fixed:
-            return  # nodes that are not known yet may still answer
+            return  # unknown nodes may still answer
         if discovery.answered >= self.membership.others or (
             self.config.is_classic_mode()
             and self.has_majority({*discovery.willing, self.node_id}, self.membership.known)
@@ -402,7 +402,7 @@ class RaftNode:
             self._request_votes()
 
     def _request_votes(self) -> None:
-        """Ask all nodes for their vote, again with each heartbeat until the election is decided."""
+        """Ask all nodes for their vote. Repeat this at each heartbeat until the election is decided."""
         log = self.persistent.log
         self.transport.broadcast(
             RequestVote(self.persistent.current_term, self.node_id, log.last_index, log.last_term)
@@ -434,7 +434,7 @@ class RaftNode:
         self._restart_heartbeat_timer()
 
     def propose(self, name: str, value: Any) -> bool:
-        """Append an entry, unless the variable has that value already. Return False if not the leader."""
+        """Append an entry, unless the variable already has that value. Return False if not the leader."""
         if self.leadership is None:
             return False
         if not same_value(self.persistent.log.latest_values().get(name), value):
@@ -497,7 +497,7 @@ class RaftNode:
             self._commit_majority()
 
     def _commit_majority(self) -> None:
-        """Commit the entries that a majority has, if this node leads."""
+        """Commit the entries that a majority has, if this node is the leader."""
         if self.leadership is None:
             return
         electorate = self.electorate()

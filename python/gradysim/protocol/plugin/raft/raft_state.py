@@ -41,10 +41,10 @@ class RaftLog:
     """The replicated log. Entries are numbered from 1.
 
     Only the latest value of each variable matters, so the committed part is stored as these values alone. The
-    log never grows with time, and one message that holds all of it brings a node up to date.
+    log does not grow with time, and one message with the whole log brings a node up to date.
 
     Attributes:
-        base_index: Index of the last committed entry, 0 for none.
+        base_index: Index of the last committed entry, 0 if there is none.
         base_term: Term of that entry.
         values: Committed value of each variable that has one.
         entries: The entries after `base_index`, which are not known to be committed.
@@ -73,7 +73,7 @@ class RaftLog:
         return self.entries[-1].term if self.entries else self.base_term
 
     def term_at(self, index: int) -> int | None:
-        """Return the term of an entry, or None if it is only known as a value or does not exist."""
+        """Return the term of an entry, or None if it is stored only as a value or does not exist."""
         if index == self.base_index:
             return self.base_term
         if self.base_index < index <= self.last_index:
@@ -87,7 +87,7 @@ class RaftLog:
         return values
 
     def is_up_to_date(self, last_index: int, last_term: int) -> bool:
-        """Whether a log that ends there is at least as up to date as this one (Raft, section 5.4.1)."""
+        """Whether a log with that end is at least as up to date as this one (Raft, section 5.4.1)."""
         return (last_term, last_index) >= (self.last_term, self.last_index)
 
     def append(self, entry: Entry) -> int:
@@ -96,7 +96,7 @@ class RaftLog:
         return self.last_index
 
     def commit(self, index: int) -> None:
-        """Commit all entries up to `index`, which must exist. Do nothing if they are committed already."""
+        """Commit all entries up to `index`, which must exist. Do nothing if they are already committed."""
         count = index - self.base_index
         if count <= 0:
             return
@@ -108,7 +108,7 @@ class RaftLog:
         del self.entries[:count]
 
     def contradicts(self, leader: "RaftLog") -> bool:
-        """Whether an entry that is committed here is missing in the log of a leader.
+        """Whether an entry that is committed here is missing in the leader's log.
 
         This cannot happen if all majorities overlap (Leader Completeness, section 5.4.3 of the Raft paper).
         """
@@ -116,16 +116,16 @@ class RaftLog:
             return False  # the leader's committed values do not tell which entries they came from
         term = leader.term_at(self.base_index)
         if term is None:
-            # The leader's log was shorter when it sent this. Terms never decrease along a log, so its entry
-            # at our base_index has at least the term in which its log ended then.
+            # The leader's log was shorter when it sent this. Terms never decrease along a log, so the
+            # leader's entry at self.base_index has at least the last term of this shorter log.
             return leader.last_term > self.base_term
         return term != self.base_term
 
     def follow(self, leader: "RaftLog") -> None:
         """Take over the log of a leader.
 
-        Messages may be late, repeated or out of order. So an entry is dropped only if it differs from the
-        leader's, never because the message is too old to contain it.
+        Messages may be late, repeated or out of order. So an entry is dropped only if it conflicts with the
+        leader's log, not if the message is too old to contain it.
         """
         if self.contradicts(leader) or (
             leader.base_index > self.base_index and self.term_at(leader.base_index) != leader.base_term
@@ -146,7 +146,7 @@ class PersistentState:
 
     Attributes:
         current_term: Highest term that the node has seen, 0 at first.
-        voted_for: Id of the candidate that the node voted for in that term, if any.
+        voted_for: Id of the candidate that the node voted for in `current_term`, if any.
         log: The log.
     """
 
@@ -160,7 +160,7 @@ class Discovery:
     """State of a follower that looks for voters before an election (PreVote).
 
     Attributes:
-        rounds_left: Number of further requests to nodes that have not answered.
+        rounds_left: Number of remaining rounds of requests to nodes that have not answered.
         answered: Ids of the nodes that answered.
         willing: Ids of the nodes that would vote for this one.
     """
@@ -187,7 +187,7 @@ class Leadership:
     """State of a leader: which entries its followers have, and when they answered.
 
     Attributes:
-        sent_s: Time of the latest AppendEntries; s.
+        sent_s: Time (s) of the latest AppendEntries.
         votes: Number of nodes that voted for the leader, including itself.
     """
 
@@ -212,7 +212,7 @@ class Leadership:
         return {node_id for node_id, matched in self._match_index.items() if matched >= index}
 
     def heard_since(self, time_s: float) -> set[int]:
-        """Return the ids of the nodes that answered at `time_s` or later, and the leader's own."""
+        """Return the ids of the nodes that answered at `time_s` or later, including the leader."""
         return {node_id for node_id, heard_s in self._heard_s.items() if heard_s >= time_s} | {self._own_id}
 
     def committable(self, log: RaftLog, electorate: Collection[int]) -> int:
@@ -242,8 +242,8 @@ def next_own_term(current_term: int, node_id: int) -> int:
 
     Each term belongs to one node. The Raft paper numbers terms 1, 2, 3, … and relies on overlapping
     majorities to have one leader in each. Here majorities need not overlap: nodes may know different members,
-    and in fault-tolerant mode both sides of a partition have a majority. So row r holds one term of each of
-    the nodes 0 to r::
+    and in fault-tolerant mode both sides of a partition can have a majority. So terms are arranged in rows,
+    and row r has one term for each of the nodes 0 to r::
 
         row 0: 1 (node 0)
         row 1: 2 (node 0)  3 (node 1)
@@ -266,7 +266,7 @@ def _term(row: int, node_id: int) -> int:
 
 
 def json_value(name: str, var_type: type, value: object) -> Any:
-    """Return an independent copy of `value` as it comes out of a JSON message.
+    """Return an independent copy of `value` as it is decoded from a JSON message.
 
     All nodes get this copy, including the one that proposes it. The type of the whole value is kept. Inside
     lists, tuples and dicts, tuples become lists, enumeration members become numbers and keys become strings:
@@ -291,7 +291,7 @@ def json_value(name: str, var_type: type, value: object) -> Any:
 
 
 def typed_value(var_type: type, received: object) -> Any:
-    """Return a copy of a value that came out of a message, as the type of its variable."""
+    """Return a copy of a value from a message, converted to the type of its variable."""
     if var_type is tuple and isinstance(received, list):
         received = tuple(received)
     return json.loads(json.dumps(received)) if isinstance(received, list | dict) else received

@@ -1,4 +1,4 @@
-"""How a Raft node sends messages and sets timers, through the provider of its protocol."""
+"""Messages and timers of a Raft node, through the provider of its protocol."""
 
 from collections import deque
 from random import Random
@@ -12,13 +12,13 @@ RAFT_DISPATCH_PREFIX = "__RAFT__"
 """Marks messages and timers of the plugin."""
 
 PREFIX = f"{RAFT_DISPATCH_PREFIX}:"
-"""Start of every message and every timer of the plugin. Others belong to the protocol."""
+"""Prefix of every message and every timer of the plugin. Others belong to the protocol."""
 
 REPLY_TIMER = "reply"
 
 
 class Transport:
-    """Messages and timers of one node. There is at most one timer of each name, except for replies.
+    """Messages and timers of one node. There is at most one timer with each name, except for replies.
 
     Attributes:
         random: The node's stream of random numbers.
@@ -43,16 +43,16 @@ class Transport:
         self._provider.send_communication_command(BroadcastMessageCommand(self._text_of(message)))
 
     def broadcast_text(self, text: str) -> None:
-        """Broadcast any text behind the prefix of the plugin."""
+        """Broadcast any string with the plugin's prefix."""
         self._provider.send_communication_command(BroadcastMessageCommand(PREFIX + text))
 
     def reply(self, message: RaftMessage, destination: int, delay_s: float) -> None:
-        """Send a message to one node after `delay_s` seconds. Replies leave in order."""
+        """Send a message to one node after `delay_s` seconds. Replies are sent in the order of calls."""
         self._replies.append((message, destination))
         self._set_timer(REPLY_TIMER, delay_s)
 
     def send_next_reply(self) -> None:
-        """Send the oldest reply, because a reply timer fired. Do nothing if there is none."""
+        """Send the oldest reply when a reply timer fires. Do nothing if there is none."""
         if self._replies:
             message, destination = self._replies.popleft()
             self._provider.send_communication_command(SendMessageCommand(self._text_of(message), destination))
@@ -60,17 +60,17 @@ class Transport:
             self.pending_timers.add(REPLY_TIMER)
 
     def drop_replies(self) -> None:
-        """Drop the replies that are not sent yet."""
+        """Drop the replies that have not been sent."""
         self._replies.clear()
         self.cancel_timer(REPLY_TIMER)
 
     def restart_timer(self, name: str, delay_s: float) -> None:
-        """Cancel the timer of that name and set it to `delay_s` seconds from now."""
+        """Cancel the timer with that name, and set it to `delay_s` seconds from now."""
         self.cancel_timer(name)
         self._set_timer(name, delay_s)
 
     def cancel_timer(self, name: str) -> None:
-        """Cancel the timers of that name. Do nothing if there is none."""
+        """Cancel the timers with that name. Do nothing if there are none."""
         if name in self.pending_timers:
             self.pending_timers.discard(name)
             self._provider.cancel_timer(PREFIX + name)

@@ -1,4 +1,4 @@
-"""Detects failed nodes by their answers to heartbeats."""
+"""Detection of failed nodes by their answers to heartbeats."""
 
 from gradysim.protocol.plugin.raft.failure_detection.failure_config import FailureConfig
 from gradysim.protocol.plugin.raft.failure_detection.failure_state import FailureState, NodeStatus

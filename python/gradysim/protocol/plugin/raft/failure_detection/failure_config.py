@@ -1,4 +1,4 @@
-"""Settings of the failure detection: when a node has failed and when it has recovered."""
+"""Settings of the failure detection: when a node counts as failed, and when as recovered."""
 
 import warnings
 
@@ -11,9 +11,9 @@ _RISKY_TIMEOUT_MS = 50
 class FailureConfig:
     """Thresholds of the failure detection.
 
-    Every `detection_interval` heartbeats each node is checked. A check fails if the node has not answered for
-    the timeout. After `failure_threshold` failed checks in a row the node has failed. It is active again
-    after `recovery_threshold` answers in a row.
+    Each node is checked every `detection_interval` heartbeats. A check fails if the node has been silent for
+    longer than the timeout. After `failure_threshold` failed checks in a row, the node counts as failed.
+    After `recovery_threshold` answers in a row, it is active again.
 
     The timeout is a multiple of the heartbeat interval (4 by default), or absolute.
     """
@@ -27,11 +27,11 @@ class FailureConfig:
         self._absolute_timeout_ms: int | None = None
 
     def set_failure_threshold(self, threshold: int) -> None:
-        """Set the number of failed checks in a row that make a node failed. Raise ValueError if < 1."""
+        """Set the number of failed checks in a row after which a node has failed. Raise ValueError if < 1."""
         self._failure_threshold = _at_least_one("failure_threshold", threshold)
 
     def set_recovery_threshold(self, threshold: int) -> None:
-        """Set the number of answers in a row that make a node active again. Raise ValueError if < 1."""
+        """Set the number of answers in a row after which a node is active again. Raise ValueError if < 1."""
         self._recovery_threshold = _at_least_one("recovery_threshold", threshold)
 
     def set_detection_interval(self, interval: int) -> None:
@@ -50,9 +50,9 @@ class FailureConfig:
         self._absolute_timeout_ms = None
 
     def set_absolute_timeout(self, timeout_ms: int) -> None:
-        """Set the timeout in ms, independent of the heartbeat interval. ValueError if it is <= 0.
+        """Set the timeout in ms, independent of the heartbeat interval. Raise ValueError if it is <= 0.
 
-        Below 50 ms it warns (UserWarning): normal delays may look like failures.
+        Warn (UserWarning) below 50 ms: normal delays may look like failures.
         """
         checked_number("an absolute timeout", timeout_ms, 0, above=True, infinite=True, unit="ms")
         if timeout_ms < _RISKY_TIMEOUT_MS:
@@ -88,7 +88,7 @@ class FailureConfig:
         return self._absolute_timeout_ms is not None
 
     def get_timeout_ms(self) -> int:
-        """Return the timeout in ms. ValueError if it is a multiple of an interval that was never set."""
+        """Return the timeout in ms. Raise ValueError if it is a multiple of an interval that was not set."""
         if self._absolute_timeout_ms is not None:
             return self._absolute_timeout_ms
         if self._heartbeat_interval_ms is None:
@@ -100,17 +100,17 @@ class FailureConfig:
 
     @property
     def failure_threshold(self) -> int:
-        """Failed checks in a row that make a node failed."""
+        """Number of failed checks in a row after which a node has failed."""
         return self._failure_threshold
 
     @property
     def recovery_threshold(self) -> int:
-        """Answers in a row that make a node active again."""
+        """Number of answers in a row after which a node is active again."""
         return self._recovery_threshold
 
     @property
     def detection_interval(self) -> int:
-        """Heartbeats from one check to the next."""
+        """Number of heartbeats from one check to the next."""
         return self._detection_interval
 
     heartbeat_timeout_ms = property(get_timeout_ms)

@@ -6,7 +6,7 @@ from enum import Enum
 
 
 class NodeStatus(Enum):
-    """Status of a node. UNKNOWN: no node of that id was added."""
+    """Status of a node. UNKNOWN: no node with that id was added."""
 
     ACTIVE = "active"
     FAILED = "failed"
@@ -24,7 +24,7 @@ class _Record:
 
 
 class FailureState:
-    """Answers and failures of a set of nodes, all active at first. Times are seconds."""
+    """Answers and failures of a set of nodes, which are all active at first. Times are in seconds."""
 
     def __init__(self, known_nodes: Iterable[int]) -> None:
         self._records = {node_id: _Record() for node_id in known_nodes}
@@ -45,9 +45,9 @@ class FailureState:
     def check_node_failure_with_timeout(
         self, node_id: int, failure_threshold: int, timeout_ms: int, current_time: float
     ) -> bool:
-        """Check a node: silence of more than `timeout_ms` is a failure. Return as `check_node_failure`.
+        """Count silence of more than `timeout_ms` as a failure, then do the same as `check_node_failure`.
 
-        For a node that never answered, silence starts at the first check.
+        For a node that never answered, the silence starts at the first check.
         """
         record = self._records.get(node_id)
         if record is None:
@@ -124,7 +124,10 @@ class FailureState:
         }
 
     def get_timeout_statistics(self, node_id: int, current_time: float) -> dict[str, float]:
-        """Return time of and since the last answer (s, ms; 0 if none) and counters; empty if unknown."""
+        """Return the time of the last answer (s), the time since (ms), and the counters.
+
+        Both times are 0 if there was no answer. The result is empty for an unknown node.
+        """
         record = self._records.get(node_id)
         if record is None:
             return {}

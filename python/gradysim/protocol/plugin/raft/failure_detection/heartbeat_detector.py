@@ -38,8 +38,8 @@ class HeartbeatDetector:
     ) -> None:
         """Create a detector for nodes with these ids, all active at first.
 
-        The callbacks get the id of a node that has failed or recovered. Without a callback for the time (s),
-        only answers recorded as failures count.
+        The callbacks get the id of a node that has failed or recovered. Without a callback for the current
+        time (s), there are no timeouts: only answers recorded as failures count.
         """
         self._config = config
         self._state = FailureState(known_nodes)
@@ -64,7 +64,7 @@ class HeartbeatDetector:
     ) -> None:
         """Record an answer, and the time from the heartbeat to it, if known. Ignore unknown nodes.
 
-        `success` is False if it is known that the node did not answer.
+        Use `success=False` if it is known that the node did not answer.
         """
         history = self._histories.get(node_id)
         if history is None:
@@ -109,7 +109,7 @@ class HeartbeatDetector:
         return self._state.get_statistics(node_id)
 
     def get_node_timeout_statistics(self, node_id: int) -> dict[str, float]:
-        """Return `FailureState.get_timeout_statistics` at the present time."""
+        """Return `FailureState.get_timeout_statistics` at the current time."""
         return self._state.get_timeout_statistics(node_id, self._now_s())
 
     def add_node(self, node_id: int) -> None:
@@ -127,7 +127,7 @@ class HeartbeatDetector:
         self._state.reset_node(node_id)
 
     def get_detection_summary(self) -> dict[str, Any]:
-        """Return settings, numbers of active and failed nodes, and details of each node as plain data."""
+        """Return the settings, the numbers of active and failed nodes, and details of each node."""
         return {
             "enabled": True,
             "heartbeat_counter": self._heartbeats,
@@ -141,7 +141,7 @@ class HeartbeatDetector:
         }
 
     def get_detection_metrics(self) -> dict[str, Any]:
-        """Return counters and times of the detection and of each node as plain data."""
+        """Return counters and times of the detection and of each node."""
         return {
             "performance": self._performance(),
             "detection": {
