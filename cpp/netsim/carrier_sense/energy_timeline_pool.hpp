@@ -1,8 +1,6 @@
 // The energy timelines of those receivers where bounds do not exclude a busy channel. A timeline is
 // kept while any of its arrivals lasts, and then reused for another receiver: few receivers need
 // one at any time.
-//
-// Used by the cumulative energy detection, which computes the timelines' contents.
 #pragma once
 
 #include <cstdint>

@@ -9,8 +9,7 @@
 // bounds stays below the level, no receiver in the zone needs a check. All zones up to the outermost
 // one where it does not are watched. Each watched receiver has a headroom: how far the power may
 // still rise before its channel can become busy. Each new transmission subtracts an upper bound of
-// its power there. A receiver is evaluated exactly only when its headroom is used up. So a watched
-// receiver costs one subtraction per new transmission.
+// its power there. A receiver is evaluated exactly only when its headroom is used up.
 //
 // Usually the first zone is enough. One number shows that: a bound for the power of the other
 // transmissions at any relevant receiver farther out. The outer zones are computed only when that

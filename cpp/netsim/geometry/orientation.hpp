@@ -2,9 +2,9 @@
 // and antennas.
 //
 // The angles are INET's heading, elevation and bank (OMNeT++'s INET framework, MobilityBase).
-// Without rotation, a body faces along x with z up. It is rotated about z by the heading (x towards
+// Without rotation, a body faces along x with z up. It is rotated about z by the heading (x toward
 // y), then about its own y axis by the elevation (nose up), then about its own x axis by the bank
-// (y towards z).
+// (y toward z).
 #pragma once
 
 #include "netsim/geometry/position.hpp"

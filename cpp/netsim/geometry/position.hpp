@@ -5,7 +5,7 @@
 
 namespace netsim {
 
-// The border of the scene. Beyond it, the propagation delay could exceed Trajectory::memory.
+// The largest absolute coordinate. Beyond it, the propagation delay could exceed Trajectory::memory.
 inline constexpr double largest_coordinate_m = 1e7;
 
 struct Position {

@@ -9,7 +9,7 @@ namespace netsim {
 
 namespace {
 
-// The overflow buckets are used from this number of events on.
+// Number of events at which the overflow buckets come into use.
 constexpr std::size_t large_heap = 512;
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Detects endless loops within one instant, in which simulated time stands still.
 //
-// Timers that are set for the current time again and again, or replies without delay to replies
-// without delay, would hang the run silently. So code that schedules for the current time on behalf
-// of a protocol counts, and throws an error above the limit.
+// Timers that are set for the current time again and again, or endless replies without delay, would
+// hang the run silently. So code that schedules for the current time on behalf of a protocol counts,
+// and throws an error above the limit.
 #pragma once
 
 #include <cstdint>

@@ -30,7 +30,7 @@ public:
             refuse_seconds(seconds);
         }
         const double exact_ps = seconds * 1e12;
-        const auto whole_ps = static_cast<std::int64_t>(exact_ps);  // towards zero
+        const auto whole_ps = static_cast<std::int64_t>(exact_ps);  // toward zero
         const double rest_ps = exact_ps - static_cast<double>(whole_ps);
         return SimTime(whole_ps + static_cast<int>(rest_ps >= 0.5) - static_cast<int>(rest_ps <= -0.5));
     }

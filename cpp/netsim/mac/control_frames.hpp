@@ -13,12 +13,10 @@
 
 namespace netsim {
 
-// Duration field of a data frame in `mode`.
 inline SimTime data_duration_field(const MacTiming& timing, const ModeSet& modes, const Mode& mode) {
     return timing.sifs + modes.response_mode(mode).duration(ack_bytes);
 }
 
-// An RTS in mode `rts_mode` for a data frame in mode `data_mode`.
 inline Frame make_rts(const Frame& data, const MacTiming& timing, const ModeSet& modes, const Mode& rts_mode,
                       const Mode& data_mode) {
     Frame rts;
@@ -31,7 +29,6 @@ inline Frame make_rts(const Frame& data, const MacTiming& timing, const ModeSet&
     return rts;
 }
 
-// The CTS that responds to `rts`, in mode `cts_mode`.
 inline Frame make_cts(const Frame& rts, const MacTiming& timing, const Mode& cts_mode) {
     Frame cts;
     cts.kind = FrameKind::cts;
@@ -42,7 +39,6 @@ inline Frame make_cts(const Frame& rts, const MacTiming& timing, const Mode& cts
     return cts;
 }
 
-// The ACK for `data`.
 inline Frame make_ack(const Frame& data) {
     Frame ack;
     ack.kind = FrameKind::ack;

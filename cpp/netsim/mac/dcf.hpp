@@ -1,6 +1,6 @@
 // An 802.11 station without QoS: the distributed coordination function.
 //
-// It sends the frames of its queue one by one: contention, RTS and CTS from the RTS threshold on,
+// It sends the frames of its queue one by one: contention, RTS and CTS at or above the RTS threshold,
 // frame, ACK, retries. After SIFS, it responds to data frames with an ACK and to RTS frames with a
 // CTS. It maintains the NAV and drops duplicates. For each attempt to send a unicast frame, the rate
 // control chooses the mode when the channel is granted.
@@ -9,7 +9,7 @@
 //
 //   NONE --channel granted, frame below the RTS threshold or broadcast--> SENDING
 //    |                                                                     ^   |
-//    +--channel granted, unicast from the threshold on--> SENDING_RTS      |   +--end of a broadcast: done--> NONE
+//    +--channel granted, unicast at or above threshold--> SENDING_RTS      |   +--end of a broadcast: done--> NONE
 //                                                              | end       |   |
 //          NONE <--time-out or another frame: retry-- AWAITING_CTS         |   | end of a unicast
 //                                                              | CTS       |   v
@@ -107,7 +107,7 @@ private:
     bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
     void await_end_of_nav();
     void update_contention();
-    // Frames that made the channel busy only together count from `since` on.
+    // Frames that made the channel busy only together count only after `since`.
     void watch_channel(SimTime since);
     // No effect while there is a frame to send or a backoff to count down.
     void stop_watching_channel();

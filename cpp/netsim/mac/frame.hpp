@@ -20,7 +20,6 @@ namespace netsim {
 // The content of a message in UTF-8, shared by all receivers.
 using Payload = std::shared_ptr<const std::string>;
 
-// Octets.
 constexpr int mac_header_bytes = 24;
 constexpr int fcs_bytes = 4;
 constexpr int llc_snap_bytes = 8;
@@ -58,7 +57,6 @@ struct Frame {
     SimTime accepted;   // of data frames only: when the interface accepted the message
 };
 
-// The kind of the message in a data frame.
 inline MessageKind message_kind(const Frame& frame) {
     return frame.receiver == broadcast_id ? MessageKind::broadcast : MessageKind::unicast;
 }

@@ -17,7 +17,6 @@
 
 namespace netsim {
 
-// Octets.
 constexpr int narrowband_overhead_bytes = 9;  // MAC header and FCS
 constexpr int narrowband_ack_bytes = 5;
 constexpr int narrowband_longest_psdu_bytes = 127;
@@ -33,7 +32,6 @@ inline bool asks_for_ack(const Frame& data) {
     return data.duration_field > SimTime();
 }
 
-// The ACK for `data`.
 inline Frame make_narrowband_ack(const Frame& data) {
     Frame ack;
     ack.kind = FrameKind::ack;

@@ -12,7 +12,7 @@
 namespace netsim {
 
 // Appends the frame from its frame control field to its FCS: frame.psdu_bytes octets. If the frame
-// is not intact, all bits of its FCS are inverted; the rest is as sent.
+// is not intact, all bits of its FCS are inverted.
 void append_frame(Octets& octets, const Frame& frame, bool intact);
 
 }  // namespace netsim

@@ -11,8 +11,7 @@
 
 namespace netsim {
 
-// Appends the frame from its frame control field to its FCS: frame.psdu_bytes octets. If the frame
-// is not intact, all bits of its FCS are inverted; the rest is as sent.
+// Like append_frame (mac/frame_octets.hpp).
 void append_narrowband_frame(Octets& octets, const Frame& frame, bool intact);
 
 }  // namespace netsim

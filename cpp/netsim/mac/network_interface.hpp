@@ -37,7 +37,6 @@ public:
     // first line of the interface is already in the cache. Step 0 prefetches what that line points
     // to, and step 1 what the result points to.
     virtual void prefetch(int step) const = 0;
-    // Outcomes of the messages that this interface accepted.
     virtual const MessageFates& message_fates() const = 0;
     // Number of messages that wait or are in progress, to check that the outcomes add up.
     virtual std::size_t queued_messages() const = 0;

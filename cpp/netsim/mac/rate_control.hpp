@@ -17,7 +17,6 @@
 
 namespace netsim {
 
-// One attempt to send a frame.
 struct RateAttempt {
     NodeId destination = 0;
     int psdu_bytes = 0;
@@ -37,7 +36,6 @@ public:
     virtual void failed(const RateAttempt& attempt, const Mode& mode, SimTime now) = 0;
 };
 
-// Sends all frames in one mode.
 class FixedRateControl final : public RateControl {
 public:
     explicit FixedRateControl(const Mode& mode) : mode_(mode) {}

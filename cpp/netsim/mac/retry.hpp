@@ -1,16 +1,15 @@
 // Retry counters of the frame in progress, and the contention window that grows with failures.
 //
 // A frame has two counters. The short one counts failures of RTS frames and of frames below the RTS
-// threshold. The long one counts failures of frames from the threshold on. A CTS resets neither.
+// threshold. The long one counts failures of frames at or above it. A CTS resets neither.
 // Every failure doubles the window.
 //
-// By default (Rule::frame_counters), dropping a frame resets the window. Rule::station_counters is
-// INET's rule. It also counts the failures of the station, in two counters that outlive frames. Only
+// By default (Rule::frame_counters), dropping a frame resets the window. Rule::station_counters,
+// INET's rule, also counts the failures of the station, in two counters that outlive frames. Only
 // successes and broadcasts reset them. The failure with which a counter reaches the limit resets the
-// window, and each later one doubles it as before. So the window is small after the first of several
-// dropped frames, and large after the second and later ones. Rule::station_window is the rule of
-// ns-3 3.44: dropping a frame does not change the window. With n the short limit, the failure n + 1
-// in a row resets it.
+// window, and each later one doubles it. So the window is small after the first of several dropped
+// frames, and large after later ones. In Rule::station_window, of ns-3 3.44, dropping a frame does
+// not change the window. With n the short limit, the failure n + 1 in a row resets it.
 //
 // Source: IEEE 802.11-2020, 10.3.4.4 (recovery procedures) and 10.3.3 (contention window). INET's
 // choice: a frame of exactly the threshold's length is long. Why INET's rule is not the default:
@@ -49,7 +48,7 @@ public:
     // An RTS or a frame below the RTS threshold was not answered. Returns false if that was the last
     // attempt.
     bool short_failed() { return failed(short_, rules_.limits.short_failures); }
-    // The same for a frame from the RTS threshold on.
+    // The same for a frame at or above the RTS threshold.
     bool long_failed() { return failed(long_, rules_.limits.long_failures); }
     // An RTS was answered. Affects only the counter of the station.
     void rts_answered() { short_.of_station = 0; }

@@ -74,7 +74,6 @@ public:
             change([duration](Frame& frame) { frame.duration_field = duration; });
         }
     }
-    // Removes the frame in progress.
     void finish(MessageFate fate) {
         fates_.book(message_kind(*in_progress()), fate);
         queue_.pop();

@@ -27,7 +27,6 @@ public:
     const Mode& mode(FrameKind kind) const { return kind == FrameKind::broadcast ? *broadcast_ : *unicast_; }
     // Length of the PSDU in bytes, with MAC, IP and UDP headers.
     int psdu_bytes(int payload_bytes) const;
-    // Time on the air of a data frame.
     SimTime airtime(FrameKind kind, int psdu_bytes) const;
     // From the end of a data frame to the end of its exchange: SIFS and the ACK of a unicast frame.
     SimTime response(FrameKind kind) const {

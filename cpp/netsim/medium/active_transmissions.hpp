@@ -35,8 +35,7 @@ struct ScheduledArrival {
     bool lockable = false;
 };
 
-// The first cache line holds what the search for concurrent transmissions reads: times,
-// displacement, zone radius and the start of the transmission.
+// The first cache line holds what the search for concurrent transmissions reads.
 struct alignas(64) ActiveTransmission {
     // The two events of an arrival. At equal times, starts come before ends.
     enum Edge : std::uint8_t { begins = 0, ends = 1 };

@@ -14,9 +14,8 @@ struct Arrival {
     SimTime start;
     SimTime end;
     double power_w = 0;
-    Position place{};  // of the receiver, when the transmission started
-    bool lockable =
-        false;  // reaches the receiver's sensitivity, in its channel and a format that it knows
+    Position place{};       // of the receiver, when the transmission started
+    bool lockable = false;  // reaches the sensitivity, on the receiver's channel and in a known format
     const ActiveTransmission* active = nullptr;  // the medium's state of the transmission; opaque to radios
 };
 

@@ -28,7 +28,7 @@ public:
     // `seed`: of the run, for fading.
     Links(const MediumConfig& config, std::uint64_t seed) : propagation_(config, seed) {}
 
-    // Returns the radio's id: 0, 1, … in the order of calls. Add radios node by node.
+    // Returns the radio's id (Medium::attach).
     RadioId add(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna, SimTime now);
     // The objects that an arrival at the radio reads in the layers above, to be prefetched
     // (kernel/prefetch.hpp). May be null.

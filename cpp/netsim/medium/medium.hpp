@@ -47,7 +47,7 @@ public:
     // Returns the radio's id: 0, 1, … in the order of calls. Attach all interfaces of node 0, then
     // those of node 1, and so on. A node must not have two radios with the same center frequency.
     RadioId attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna = {});
-    // The objects that an arrival reads in the layers above (Links::set_prefetch_targets).
+    // Links::set_prefetch_targets.
     void set_prefetch_targets(RadioId radio, const void* interface, const void* protocol) {
         links_.set_prefetch_targets(radio, interface, protocol);
     }
@@ -108,7 +108,6 @@ private:
     void book_copies(const ActiveTransmission& entry, CopyCount copies);
     void prefetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(ActiveTransmission& entry);
-    // The event of the next arrival to start or to end.
     static Due next_due(const ActiveTransmission& entry, ActiveTransmission::Edge edge);
     void schedule_next(ActiveTransmission& entry, ActiveTransmission::Edge edge);
     void notify_next(ActiveTransmission& entry, ActiveTransmission::Edge edge);
@@ -116,7 +115,6 @@ private:
     // is disabled.
     void notify(RadioId radio, ActiveTransmission& active, const Arrival& arrival);
     void start_late_arrival(RadioId radio, const ActiveTransmission& active, std::size_t index);
-    // Adds a bound for the power of `there` at the receivers of `here`.
     void add_interference_bounds(ActiveTransmission& here, const ActiveTransmission& there) const;
     void arrival_needed(RadioId radio, ActiveTransmission& active, const Arrival& arrival) override;
 

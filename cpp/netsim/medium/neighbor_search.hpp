@@ -50,7 +50,6 @@ private:
     };
 
     void build(SimTime now, double reach_m);
-    // Whether the cells are much smaller or larger than they should be.
     bool is_of_wrong_size() const;
 
     std::int64_t cell_of(double coordinate_m) const {

@@ -35,7 +35,6 @@ struct ReceiverParameters {
     bool operator==(const ReceiverParameters&) const = default;
 
     bool can_decode(const Transmission& sent) const { return sent.can_be_decoded(band, formats); }
-    // Whether it can lock on to the transmission when it arrives with `power_w`.
     bool can_lock_on(const Transmission& sent, double power_w) const {
         return power_w >= sensitivity_w && can_decode(sent);
     }

@@ -1,8 +1,8 @@
 // Sorts the arrivals of one transmission by start, then by radio: the order of their events.
 //
 // Up to 64 arrivals, the usual case, are sorted by rank: the index of each is the number of arrivals
-// before it. Ranks are counted without branches, four at a time. The results of comparisons are
-// unpredictable, and one branch misprediction costs as much as many comparisons.
+// before it. Ranks are counted without branches, four at a time, since one branch misprediction costs
+// as much as many comparisons.
 #pragma once
 
 #include <algorithm>

@@ -34,8 +34,8 @@ public:
     double reception_ratio(double distance_m, double tx_power_w) const;
 
     // The least power in W at which the fraction `ratio` (0 < ratio < 1) of frames is decoded at
-    // `range_m` > 0. Accurate to 0.01 dB if the gain is random. Otherwise a few billionths too large,
-    // as a margin for rounding. Throws ConfigError for numbers out of range, and if no power suffices.
+    // `range_m` > 0. Accurate to 0.01 dB if the gain is random; otherwise a few billionths too large,
+    // for rounding. Throws ConfigError for numbers out of range, and if no power suffices.
     double tx_power_w_for(double range_m, double ratio) const;
 
     double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
@@ -46,7 +46,7 @@ public:
     double noise_w() const { return noise_w_; }
 
 private:
-    // The power that a fraction `share` of the frames needs to be decoded.
+    // The power that a fraction of the frames needs to be decoded.
     struct Need {
         double power_w;
         double share;

@@ -134,8 +134,7 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
     if (config.type_name == ieee80211_interface) {
         dcf_parameters(config.mac);
     }
-    // 802.11 and 802.15.4 channels never have equal center frequencies, so this is a mistake of the
-    // user. Neither could decode the frames of the other.
+    // 802.11 and 802.15.4 channels never have equal center frequencies, so this is a mistake.
     const auto there = interface_types_.find(radio.carrier_hz);
     if (there != interface_types_.end() && there->second != config.type_name) {
         throw ConfigError(

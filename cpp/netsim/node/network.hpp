@@ -73,8 +73,7 @@ public:
         check_runs("run_until");
         return simulator_.run_until(limit, max_events);
     }
-    // Runs one event, if there is one up to and including `limit`. Otherwise returns false and leaves
-    // the clock unchanged.
+    // Runs one event up to and including `limit`. Returns false if there is none.
     bool step(SimTime limit) {
         check_runs("step");
         return simulator_.step(limit);

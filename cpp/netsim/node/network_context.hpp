@@ -1,5 +1,4 @@
-// State shared by the nodes of one network: its clock, the number of nodes, and statistics over all
-// of them.
+// State and statistics shared by the nodes of one network.
 #pragma once
 
 #include <cstdint>

@@ -85,7 +85,6 @@ private:
     void send_through(std::int32_t interface, NodeId destination, Payload payload);
     template <typename Call>
     void call_protocol(const char* callback, const Call& call);
-    // Action of the event when a timer is due.
     struct TimerDue {
         Node* node;
         std::size_t number;

@@ -1,8 +1,7 @@
 // Padding for messages without content: a string of a given size, shared by all calls for the same
 // size.
 //
-// In a large network, a separate string per node would not be in a cache when it is sent. Shared by
-// the nodes of one network.
+// In a large network, a separate string per node would not be in a cache when it is sent.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,7 @@
 //
 // A protocol reacts to events and acts through its Node (send, go_to, schedule_timer, …). The
 // Python proxy is one implementation; native protocols, in protocols/, are others. An exception
-// thrown by a callback ends the run. A std::runtime_error (such as SimulationError) or
-// std::logic_error is nested in a ProtocolError; others propagate unchanged.
+// thrown by a callback ends the run, usually as a ProtocolError.
 #pragma once
 
 #include <string>

@@ -36,8 +36,8 @@ public:
     }
 
 private:
-    // The number of a step consists of the upper bits of a double, including the first five of its
-    // mantissa. It rises with the double.
+    // A step number is the upper bits of a double, including five of its mantissa. It rises with the
+    // double.
     static constexpr int step_shift = 52 - 5;
     static constexpr std::uint64_t first_step = std::bit_cast<std::uint64_t>(0.125) >> step_shift;
     static constexpr std::uint64_t last_step = std::bit_cast<std::uint64_t>(2048.0) >> step_shift;

@@ -145,8 +145,8 @@ const BitErrorBounds& dsss_bounds(std::int64_t bitrate_bps) {
     return bitrate_bps == 1'000'000 ? slow : fast;
 }
 
-// The expected number of bit errors of a frame, including its header, for the bit error rate that
-// `rate(const BitErrorBounds&)` returns. Not for CCK, whose fits need not fall with the SNIR.
+// Expected bit errors of a frame, header included, for the bit error rates that `rate(const
+// BitErrorBounds&)` returns. Not for CCK, whose fits need not fall with the SNIR.
 template <typename Rate>
 double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
     const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));

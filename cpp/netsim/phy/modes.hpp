@@ -64,7 +64,6 @@ public:
     // The formats of its modes. A station of the set can decode all frames of these formats: for each
     // of them, the set has all modes that any set has.
     PpduFormats formats() const;
-    // The index of a mode of this set.
     std::size_t index_of(const Mode& mode) const { return static_cast<std::size_t>(&mode - modes_.data()); }
 
     // Slot time and SIFS of the slowest mode in the set. Derived intervals are in mac/timing.hpp.

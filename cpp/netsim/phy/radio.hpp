@@ -22,9 +22,8 @@
 //          |  +--------- PHY header lost, or the end of the arrival (SNIR by chunks: phy/reception.hpp) --+  |
 //          +------------ end of the arrival locked on -------------------------------------------------------+
 //
-// In DETECTING, the channel is not busy. The energy of a frame counts only from the end of its
-// detection on, since sensing takes as long. Without preamble detection, both arrows to DETECTING
-// lead to LOCKED.
+// In DETECTING, the energy of a frame does not count yet, since sensing takes as long. Without
+// preamble detection, both arrows to DETECTING lead to LOCKED.
 #pragma once
 
 #include <memory>
@@ -79,8 +78,7 @@ public:
     RadioId id() const { return id_; }
 
     // Starts the turnaround to transmit mode: frames that arrive before the end of the next
-    // transmission are not received. Only while not transmitting. Not needed without a turnaround
-    // time.
+    // transmission are not received. Only while not transmitting.
     void turn_to_transmit();
     // Sends a frame now. Only while not transmitting.
     void transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -89,7 +87,7 @@ public:
     // Starts reporting the channel state, including frames that make the channel busy only together.
     // Initially on. In a large network, a MAC saves much time if it stops the reports while it does
     // not need them. Returns when the channel last became free; long ago if it never did. Frames that
-    // made it busy only together count from `since` on.
+    // made it busy only together count only after `since`.
     SimTime watch_channel(SimTime since) {
         reports_channel_ = true;
         watches_energy_ = true;

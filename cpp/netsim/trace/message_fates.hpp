@@ -40,7 +40,6 @@ public:
     }
 
     std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
-    // Messages without another outcome are queued.
     Counts counts(MessageKind kind) const;
 
 private:

@@ -18,8 +18,8 @@ struct SaturatingSourceConfig {
 };
 
 // It periodically passes a burst of messages to its MAC, faster than the channel can carry them, so
-// that the queue never becomes empty. The default offered load is 32 Mbps of payload. The queue drops
-// messages when it is full. The time of the first burst is drawn at the start, between 0 and spread.
+// that the queue never becomes empty. The default offered load is 32 Mbps of payload. The time of the
+// first burst is drawn at the start, between 0 and spread.
 class SaturatingSource final : public Protocol {
 public:
     SaturatingSource(Node& node, const SaturatingSourceConfig& config);

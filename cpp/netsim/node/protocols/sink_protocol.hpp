@@ -1,4 +1,4 @@
-// A node that only counts what it receives: examples/reference/sink.py in C++.
+// A node that counts received messages: examples/reference/sink.py in C++.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@ struct SinkConfig {
     void validate() const;
 };
 
-// Tracked at the end, for messages from `count_from` on: "received" and "received_bytes".
+// Tracked at the end, for messages at or after `count_from`: "received" and "received_bytes", the
+// number of characters.
 class alignas(64) SinkProtocol final : public Protocol {
 public:
     SinkProtocol(Node& node, const SinkConfig& config) : node_(node), config_(config) {}

@@ -12,7 +12,7 @@ namespace netsim::zigzag {
 // Heartbeat of a UAV, broadcast.
 struct UavHeartbeat {
     NodeId sender = 0;
-    bool homeward = false;   // flies towards the ground station
+    bool homeward = false;   // flies toward the ground station
     bool available = false;  // ready for an exchange
 
     bool operator==(const UavHeartbeat&) const = default;

@@ -55,7 +55,7 @@ private:
     void ask(NodeId peer, NodeId carrier);
     // Hands all data to `peer` if that is the carrier. Returns the total for the message to `peer`.
     std::int64_t hand_over(NodeId peer, NodeId carrier);
-    // Ends an exchange: the carrier flies towards the ground station, the other one away from it.
+    // Ends an exchange: the carrier flies toward the ground station, the other one away from it.
     void part(NodeId carrier);
     void leave_others_alone();
     bool ignores_others() const;
