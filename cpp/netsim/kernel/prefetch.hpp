@@ -12,7 +12,7 @@
 //                                                        events of the bucket. A node's timer prefetches the node,
 //                                                        protocol, interface and radio, since most timers send.
 //   arrivals         their transmission begins           Medium prefetches each receiver's radio, MAC, protocol
-//                                                        (Medium::set_prefetch_targets) and frame count.
+//                                                        (Medium::set_prefetch_targets) and outcome count.
 //
 // Smaller cases: positions of moving nodes (NeighborSearch), a payload that receivers will hash
 // (TransmitQueue), the state for a frame that may be lost (Radio), and counts of interferers

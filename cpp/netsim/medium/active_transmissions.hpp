@@ -37,7 +37,7 @@ struct ScheduledArrival {
 
 // The first cache line holds what the search for concurrent transmissions reads.
 struct alignas(64) ActiveTransmission {
-    // The two events of an arrival. At equal times, starts come before ends.
+    // The two events of an arrival. At equal times, the start of an arrival comes before its end.
     enum Edge : std::uint8_t { begins = 0, ends = 1 };
     SequenceNumber sequence_number(RadioId radio, Edge edge) const {
         return first_sequence_number + 2 * static_cast<SequenceNumber>(radio) + edge;

@@ -55,14 +55,14 @@ public:
     // Whether the radio takes part in cumulative energy detection (Medium::watch_energy).
     bool watches_energy(RadioId radio) const { return radios_[radio].watches_energy != 0; }
     void set_watches_energy(RadioId radio, bool watches) { radios_[radio].watches_energy = watches ? 1 : 0; }
-    // Prefetch (kernel/prefetch.hpp) what a transmission reads of a radio near it,
+    // Prefetches what a transmission reads of a radio near it (kernel/prefetch.hpp).
     void prefetch(RadioId radio) const { netsim::prefetch(radios_[radio]); }
-    // what it reads of its sender,
+    // Prefetches what a transmission reads of its sender.
     void prefetch_sender(RadioId radio) const {
         prefetch(radio);
         netsim::prefetch(trajectories_[radio]);
     }
-    // and what an arrival reads in the layers above. Call the last one after prefetch(radio).
+    // Prefetches what an arrival reads in the layers above. Call it after prefetch(radio).
     void prefetch_targets(RadioId radio) const {
         const Radio& there = radios_[radio];
         prefetch_bytes(there.listener, cache_line_bytes);
