@@ -76,6 +76,12 @@ constexpr Field fields[] = {
      "time from one independent state of a link to the next, at least 1us; 0s: with each frame, as in INET;"
      " -1s: 5 ms, shadowing 1 s",
      with_fading},
+    {NETSIM_FIELD(MediumConfig, shadowing_standard_deviation_db), "shadowing.standardDeviation",
+     number_in("dB").at_least(0).at_most(40),
+     "of a normal number of decibels that each link gains, beside any path loss and its fading"},
+    {NETSIM_FIELD(MediumConfig, shadowing_decorrelation_time_s), "shadowing.decorrelationTime",
+     quantity("s").at_least(0).at_most(1e6),
+     "from one independent state of that gain to the next, at least 1us; 0s: with each frame"},
     {NETSIM_FIELD(MediumConfig, propagation), "propagation.typename", one_of(propagation_names),
      "How frames travel: at the speed of light"},
     {NETSIM_FIELD(MediumConfig, obstacle_loss), "obstacleLoss.typename", one_of(obstacle_loss_names),
@@ -108,12 +114,16 @@ double MediumConfig::coherence_time() const {
 void MediumConfig::validate() const {
     check_fields(*this);
     constexpr double shortest_s = 1e-6;
-    if (coherence_time_s > 0 && coherence_time_s < shortest_s) {
-        throw ConfigError({"medium.coherence_time_s",
-                           Quantity{coherence_time_s, "s"},
-                           {"expected at least ", Quantity{shortest_s, "s"}, ", or ", Quantity{0, "s"},
-                            " (new for each transmission)"}});
-    }
+    const auto check_time = [](const char* field, double time_s) {
+        if (time_s > 0 && time_s < shortest_s) {
+            throw ConfigError({field,
+                               Quantity{time_s, "s"},
+                               {"expected at least ", Quantity{shortest_s, "s"}, ", or ", Quantity{0, "s"},
+                                " (new for each transmission)"}});
+        }
+    };
+    check_time("medium.coherence_time_s", coherence_time_s);
+    check_time("medium.shadowing_decorrelation_time_s", shadowing_decorrelation_time_s);
     for (const ObstacleConfig& obstacle : obstacles) {
         obstacle.validate();
     }

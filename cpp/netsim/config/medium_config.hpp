@@ -68,6 +68,10 @@ struct MediumConfig {
     double coherence_time_s =
         -1;  // 0: each transmission has its own state, as in INET; -1: the default of the model
 
+    // Beside any path loss (Fading::shadowing).
+    double shadowing_standard_deviation_db = 0;
+    double shadowing_decorrelation_time_s = 1;  // 0: each transmission has its own state
+
     std::string background_noise = "IsotropicScalarBackgroundNoise";
     double temperature_k = 290;
     double background_noise_w = 1e-14;  // -110 dBm in every band, for any width

@@ -23,6 +23,7 @@ enum class Purpose : std::uint32_t {
     csma_backoff = 5,
     rate_control = 6,
     parameter = 7,  // of a scenario; used by Python only
+    shadowing = 8,  // beside a path loss; LogNormalShadowing draws from `fading`
 };
 
 // Philox4x32 with 10 rounds: maps a 128-bit counter and a 64-bit key to 128 random bits.

@@ -99,7 +99,7 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
                             sender.name + " broadcasts"}});
     }
     if (propagation_.is_random()) {
-        needs_ = needs();
+        needs_ = shadowed(needs());
     }
 }
 
@@ -116,10 +116,10 @@ double LinkBudget::success_probability(double power_w) const {
     return error_model_->success_probability(*mode_, power_w / noise_w_, psdu_bytes_);
 }
 
-// Computed in steps of the needed power. So powers derived from the result are accurate to half a
-// step, for any fading.
+// Steps of the needed power. So powers derived from it are accurate to half a step, for any fading.
+constexpr double step_db = 0.02;
+
 std::vector<LinkBudget::Need> LinkBudget::needs() const {
-    constexpr double step_db = 0.02;
     constexpr double far_db = 100;  // at more than this below or above the noise, no probability changes
     constexpr double too_small = 1e-12;
     const double min_w = min_power_w();
@@ -137,6 +137,40 @@ std::vector<LinkBudget::Need> LinkBudget::needs() const {
     return all;
 }
 
+std::vector<LinkBudget::Need> LinkBudget::shadowed(const std::vector<Need>& needs) const {
+    const Fading& shadowing = propagation_.shadowing();
+    if (shadowing.is_none()) {
+        return needs;
+    }
+    const auto side = static_cast<std::size_t>(std::ceil(db_from_ratio(shadowing.max()) / step_db));
+    // shares[i]: of gains within half a step of (i − side) steps.
+    std::vector<double> shares;
+    double above = 1;
+    for (std::size_t i = 0; i <= 2 * side; ++i) {
+        const double below = above;
+        above = shadowing.chance_of(
+            ratio_from_db((static_cast<double>(i) - static_cast<double>(side) + 0.5) * step_db));
+        shares.push_back(below - above);
+    }
+    const double last_w = needs.back().power_w;
+    // spread[i]: of needs that are i steps below the largest one, last_w · shadowing.max().
+    std::vector<double> spread;
+    for (const Need& need : needs) {
+        const auto steps_below_last =
+            static_cast<std::size_t>(std::lround(db_from_ratio(last_w / need.power_w) / step_db));
+        spread.resize(std::max(spread.size(), steps_below_last + shares.size()));
+        for (std::size_t i = 0; i < shares.size(); ++i) {
+            spread[steps_below_last + i] += need.share * shares[i];
+        }
+    }
+    std::vector<Need> all;
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+        all.push_back({last_w * ratio_from_db((static_cast<double>(side) - static_cast<double>(i)) * step_db),
+                       spread[i]});
+    }
+    return all;
+}
+
 double LinkBudget::steady_gain(double distance_m) const {
     check_at_least("distance_m", distance_m, 0, "m");
     const double rise_m = receiver_height_m_ - sender_height_m_;
@@ -146,7 +180,7 @@ double LinkBudget::steady_gain(double distance_m) const {
 }
 
 double LinkBudget::mean_gain(double distance_m) const {
-    return steady_gain(distance_m) * propagation_.fading().mean();
+    return steady_gain(distance_m) * propagation_.shadowing().mean() * propagation_.fading().mean();
 }
 
 double LinkBudget::reception_ratio(double distance_m, double tx_power_w) const {

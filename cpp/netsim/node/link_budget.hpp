@@ -5,8 +5,8 @@
 // If the gain is random, the ratio is the mean over all states of the link. Let s(p) be the success
 // probability at received power p, C(x) the probability that the fading gain is at least x, and q
 // the received power without fading. The ratio is the mean of s(x q) over x: ∫ C(p / q) ds(p), by
-// integration by parts. Antennas face each other with their largest gain, without obstacles between
-// them.
+// integration by parts. Shadowing divides the power p that is needed, so it spreads ds. Antennas face
+// each other with their largest gain, without obstacles between them.
 #pragma once
 
 #include <cstddef>
@@ -57,9 +57,11 @@ private:
     // For a frame that arrives with at least min_power_w().
     double success_probability(double power_w) const;
     std::vector<Need> needs() const;
-    // The gain without fading: antennas and path loss.
+    // The same needs, divided by all gains of the shadowing.
+    std::vector<Need> shadowed(const std::vector<Need>& needs) const;
+    // The gain without shadowing and fading: antennas and path loss.
     double steady_gain(double distance_m) const;
-    // The ratio for frames that would arrive with `power_w` without fading.
+    // The ratio for frames that would arrive with `power_w` without shadowing and fading.
     double ratio_at(double power_w) const;
 
     Propagation propagation_;

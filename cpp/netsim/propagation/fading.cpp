@@ -47,26 +47,39 @@ double chance_within(double radius, double line) {
 }  // namespace
 
 Fading::Fading(const MediumConfig& config, std::uint64_t seed)
-    : gaussians_(seed, SimTime::from_seconds(config.coherence_time())) {
-    double farthest = 0;  // largest distance from 0 of pairs that are not cut off
+    : gaussians_(seed, Purpose::fading, SimTime::from_seconds(config.coherence_time())) {
     if (config.path_loss == "LogNormalShadowing") {
-        kind_ = Kind::log_normal;
-        sigma_ = config.sigma_db * std::numbers::ln10 / 10;
-        farthest = rare_normal;
+        set_log_normal(config.sigma_db);
     } else if (config.path_loss == "RayleighFading" || config.path_loss == "RicianFading") {
         kind_ = Kind::rician;
         k_ = config.path_loss == "RicianFading" ? ratio_from_db(config.k_db) : 0;
-        farthest = std::sqrt(2 * rare_scattered);
+        cut_off(std::sqrt(2 * rare_scattered));
     } else if (config.path_loss == "NakagamiFading") {
         kind_ = Kind::nakagami;
         shape_ = config.shape_factor;
         if (shape_ != 1) {
             gamma_.emplace(shape_);
         }
-        farthest = rare_normal;
-    } else {
-        return;
+        cut_off(rare_normal);
     }
+}
+
+Fading Fading::shadowing(const MediumConfig& config, std::uint64_t seed) {
+    Fading shadowing(LinkGaussians(seed, Purpose::shadowing,
+                                   SimTime::from_seconds(config.shadowing_decorrelation_time_s)));
+    shadowing.set_log_normal(config.shadowing_standard_deviation_db);
+    return shadowing;
+}
+
+void Fading::set_log_normal(double sigma_db) {
+    if (sigma_db > 0) {
+        kind_ = Kind::log_normal;
+        sigma_ = sigma_db * std::numbers::ln10 / 10;
+        cut_off(rare_normal);
+    }
+}
+
+void Fading::cut_off(double farthest) {
     // All models rise with the first number. At equal distance from 0, the largest gain has a
     // second number of 0.
     const auto max_gain = [this](double from_0) { return untruncated({from_0, 0}); };
@@ -89,7 +102,7 @@ double Fading::chance_of(double gain) const {
     }
     switch (kind_) {
         case Kind::log_normal:
-            return sigma_ > 0 ? normal_above(std::log(gain) / sigma_) : 1;
+            return normal_above(std::log(gain) / sigma_);
         case Kind::rician:
             return k_ > 0 ? 1 - chance_within(std::sqrt(2 * (k_ + 1) * gain), std::sqrt(2 * k_))
                           : std::exp(-gain);

@@ -4,8 +4,6 @@
 #include <numbers>
 #include <utility>
 
-#include "netsim/kernel/random.hpp"
-
 namespace netsim {
 
 LinkGaussians::Mixture LinkGaussians::mixture(std::uint32_t a, std::uint32_t b, SimTime time,
@@ -43,7 +41,7 @@ LinkGaussians::Drawn LinkGaussians::draw(std::uint32_t low, std::uint32_t high, 
     // A stream's key (kernel/random.hpp) has room for one node. The other node takes the place of
     // the upper half of the block index, which goes into the upper 16 bits of the purpose.
     const std::uint32_t purpose =
-        static_cast<std::uint32_t>(Purpose::fading) | (static_cast<std::uint32_t>(index >> 32) << 16);
+        static_cast<std::uint32_t>(purpose_) | (static_cast<std::uint32_t>(index >> 32) << 16);
     const auto words =
         philox4x32({static_cast<std::uint32_t>(index), low, high, purpose},
                    {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});

@@ -1,4 +1,4 @@
-// Gaussian numbers of a link, as a function of the run's seed, the pair of its ends and the time.
+// Gaussian numbers of a link, as a function of the run's seed, the purpose, the pair of its ends and the time.
 // Fading and shadowing use them.
 //
 // Nothing is stored per link, and the order of calls does not matter: calls for the same link and
@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "netsim/kernel/random.hpp"
 #include "netsim/kernel/sim_time.hpp"
 
 namespace netsim {
@@ -31,8 +32,8 @@ class LinkGaussians {
 public:
     // `coherence_time` 0: new numbers for each transmission, whatever the time. Otherwise at least
     // a microsecond.
-    LinkGaussians(std::uint64_t seed, SimTime coherence_time)
-        : seed_(seed), coherence_time_(coherence_time) {}
+    LinkGaussians(std::uint64_t seed, Purpose purpose, SimTime coherence_time)
+        : seed_(seed), purpose_(purpose), coherence_time_(coherence_time) {}
 
     // The same for (a, b) as for (b, a). `transmission` below 2^48.
     GaussianPair at(std::uint32_t a, std::uint32_t b, SimTime time, std::uint64_t transmission) const {
@@ -71,6 +72,7 @@ private:
     Drawn draw(std::uint32_t low, std::uint32_t high, std::uint64_t index) const;
 
     std::uint64_t seed_;
+    Purpose purpose_;
     SimTime coherence_time_;
 };
 

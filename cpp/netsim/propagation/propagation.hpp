@@ -1,6 +1,6 @@
 // Propagation of a transmission from one end of a link to the other: gain and delay.
 //
-// The gain is the product of path loss (with or without a ground), fading and obstacles. Antennas
+// The gain is the product of path loss (with or without a ground), shadowing, fading and obstacles. Antennas
 // are separate (antennas.hpp). The medium computes gains for pairs of radios. To find the radios in
 // reach of a sender, it uses upper bounds that no gain exceeds.
 #pragma once
@@ -50,14 +50,15 @@ public:
         return max_factor_ * path_loss_.max_gain_beyond(distance_m, carrier_hz);
     }
 
-    // The path loss alone, between two places, without fading and obstacles.
+    // The path loss alone, between two places, without shadowing, fading and obstacles.
     double path_gain(const Position& from, const Position& to, double distance_m, double carrier_hz) const {
         return two_ray_.is_none() ? path_loss_.gain(distance_m, carrier_hz)
                                   : two_ray_.gain(from, to, distance_m, carrier_hz);
     }
+    const Fading& shadowing() const { return shadowing_; }
     const Fading& fading() const { return fading_; }
     // Whether gains are drawn from a distribution.
-    bool is_random() const { return !fading_.is_none(); }
+    bool is_random() const { return !(shadowing_.is_none() && fading_.is_none()); }
 
 private:
     double other_gain(const Transmission& sent, InterfaceId receiver, const Position& place,
@@ -65,6 +66,7 @@ private:
 
     PathLoss path_loss_;  // for the two-ray models: an upper bound
     TwoRay two_ray_;
+    Fading shadowing_;
     Fading fading_;
     Obstacles obstacles_;
     bool is_power_law_;  // no other factor; true for most networks

@@ -55,6 +55,12 @@ TEST(MediumConfig, ACoherenceTimeBelowAMicrosecondIsRejected) {
     EXPECT_EQ(
         error_text([&] { config.validate(); }),
         "medium.coherence_time_s = 1e-09 s: expected at least 1e-06 s, or 0 s (new for each transmission)");
+    config.coherence_time_s = 0;
+    config.shadowing_decorrelation_time_s = 1e-9;
+    EXPECT_EQ(
+        error_text([&] { config.validate(); }),
+        "medium.shadowing_decorrelation_time_s = 1e-09 s: expected at least 1e-06 s, or 0 s (new for each "
+        "transmission)");
 }
 
 }  // namespace

@@ -206,6 +206,33 @@ TEST(LinkBudget, FadingThatIsNoneChangesNothing) {
     }
 }
 
+TEST(LinkBudget, ShadowingBesideAPathLossIsAMeanOverItsGains) {
+    constexpr double range_m = 100;
+    for (const double sensitivity_w : {w_from_dbm(-85), 1e-20}) {
+        NodeConfig config = node();
+        config.wlan[0].radio.sensitivity_w = sensitivity_w;
+        config.wlan[0].radio.snir_threshold = 0;
+        for (const std::string path_loss : {"FreeSpacePathLoss", "RayleighFading", "LogNormalShadowing"}) {
+            for (const double sigma_db : {0.1, 6.0}) {
+                MediumConfig medium = medium_of(path_loss, 3);
+                const LinkBudget alone = budget_of(config, medium);
+                medium.shadowing_standard_deviation_db = sigma_db;
+                const LinkBudget shadowed = budget_of(config, medium);
+                for (const double ratio : {0.01, 0.5, 0.99}) {
+                    const double power_w = shadowed.tx_power_w_for(range_m, ratio);
+                    const double little = ratio_from_db(0.03);
+                    const auto density = log_normal_density(sigma_db);
+                    EXPECT_GT(plain_mean(alone, density, range_m, power_w * little), ratio) << path_loss;
+                    EXPECT_LT(plain_mean(alone, density, range_m, power_w / little), ratio) << path_loss;
+                }
+                const double sigma = sigma_db * std::numbers::ln10 / 10;
+                EXPECT_NEAR(shadowed.mean_gain(range_m) / alone.mean_gain(range_m),
+                            std::exp(sigma * sigma / 2), 1e-4);
+            }
+        }
+    }
+}
+
 TEST(LinkBudget, WithoutNoiseTheSensitivityDecides) {
     for (const char* path_loss : {"FreeSpacePathLoss", "RayleighFading"}) {
         const MediumConfig noisy = medium_of(path_loss);
@@ -232,6 +259,7 @@ TEST(LinkBudget, ThePowerThatAPreambleNeedsIsALimitToo) {
 struct Case {
     std::string path_loss;
     std::string_view interface_type;
+    double shadowing_standard_deviation_db = 0;
 };
 
 class LinkBudgets : public testing::TestWithParam<Case> {};
@@ -241,6 +269,8 @@ TEST_P(LinkBudgets, ForetellWhatARunShows) {
     MediumConfig medium{std::string(narrowband ? ieee802154_scalar_medium : ieee80211_scalar_medium)};
     medium.path_loss = GetParam().path_loss;
     medium.coherence_time_s = 0;  // each frame sees another state of the link
+    medium.shadowing_decorrelation_time_s = 0;
+    medium.shadowing_standard_deviation_db = GetParam().shadowing_standard_deviation_db;
     NodeConfig config = node(GetParam().interface_type);
     config.initial_position.z = 10;
     config.wlan[0].radio.sensitivity_w = 1e-20;  // noise decides
@@ -262,8 +292,12 @@ INSTANTIATE_TEST_SUITE_P(Models, LinkBudgets,
                                          Case{"LogNormalShadowing", ieee80211_interface},
                                          Case{"TwoRayInterference", ieee80211_interface},
                                          Case{"BreakpointPathLoss", ieee802154_interface},
-                                         Case{"RicianFading", ieee802154_interface}),
-                         [](const auto& tested) { return tested.param.path_loss; });
+                                         Case{"RicianFading", ieee802154_interface},
+                                         Case{"RicianFading", ieee80211_interface, 6}),
+                         [](const auto& tested) {
+                             return tested.param.path_loss +
+                                    (tested.param.shadowing_standard_deviation_db > 0 ? "WithShadowing" : "");
+                         });
 
 TEST(LinkBudget, AntennasHelpWithTheirLargestGain) {
     NodeConfig config = node();

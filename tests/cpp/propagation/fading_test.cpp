@@ -112,6 +112,8 @@ TEST(Fading, ShadowingWithoutASpreadIsNone) {
     const Fading fading(shadowing, 1);
     EXPECT_EQ(fading.gain(0, 1, SimTime(), 5), 1);
     EXPECT_EQ(fading.max(), 1);
+    EXPECT_TRUE(fading.is_none());
+    EXPECT_TRUE(Fading::shadowing(shadowing, 1).is_none());
 }
 
 TEST(Fading, ChancesOfShadowingAreThoseOfANormalNumber) {

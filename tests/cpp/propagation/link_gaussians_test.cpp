@@ -11,18 +11,21 @@ namespace {
 constexpr SimTime coherence_time = SimTime::from_us(5000);
 
 TEST(LinkGaussians, AreTheSameFromBothEnds) {
-    const LinkGaussians gaussians(7, coherence_time);
+    const LinkGaussians gaussians(7, Purpose::fading, coherence_time);
     const SimTime time = SimTime::from_us(12'345);
     EXPECT_EQ(gaussians.at(3, 8, time, 0).first, gaussians.at(8, 3, time, 1).first);
     EXPECT_EQ(gaussians.at(3, 8, time, 0).second, gaussians.at(8, 3, time, 1).second);
 }
 
 TEST(LinkGaussians, DifferWithSeedLinkAndInterval) {
-    const LinkGaussians gaussians(7, coherence_time);
+    const LinkGaussians gaussians(7, Purpose::fading, coherence_time);
     const SimTime time = SimTime::from_us(12'345);
     const double here = gaussians.at(3, 8, time, 0).first;
-    EXPECT_NE(here, LinkGaussians(8, coherence_time).at(3, 8, time, 0).first);
-    EXPECT_NE(here, LinkGaussians(7 + (std::uint64_t{1} << 32), coherence_time).at(3, 8, time, 0).first);
+    EXPECT_NE(here, LinkGaussians(8, Purpose::fading, coherence_time).at(3, 8, time, 0).first);
+    EXPECT_NE(here, LinkGaussians(7, Purpose::shadowing, coherence_time).at(3, 8, time, 0).first);
+    EXPECT_NE(
+        here,
+        LinkGaussians(7 + (std::uint64_t{1} << 32), Purpose::fading, coherence_time).at(3, 8, time, 0).first);
     EXPECT_NE(here, gaussians.at(3, 9, time, 0).first);
     EXPECT_NE(here, gaussians.at(2, 8, time, 0).first);
     EXPECT_NE(here, gaussians.at(3, 8, time + coherence_time, 0).first);
@@ -30,7 +33,7 @@ TEST(LinkGaussians, DifferWithSeedLinkAndInterval) {
 }
 
 TEST(LinkGaussians, AreContinuousInTime) {
-    const LinkGaussians gaussians(7, coherence_time);
+    const LinkGaussians gaussians(7, Purpose::fading, coherence_time);
     double before = gaussians.at(0, 1, SimTime(), 0).first;
     for (int us = 1; us < 20'000; ++us) {
         const double now = gaussians.at(0, 1, SimTime::from_us(us), 0).first;
@@ -41,7 +44,7 @@ TEST(LinkGaussians, AreContinuousInTime) {
 }
 
 TEST(LinkGaussians, HalfWayTheyAreTheMeanOfBothEndsAtUnchangedVariance) {
-    const LinkGaussians gaussians(7, coherence_time);
+    const LinkGaussians gaussians(7, Purpose::fading, coherence_time);
     const double before = gaussians.at(0, 1, SimTime(), 0).second;
     const double after = gaussians.at(0, 1, coherence_time, 0).second;
     EXPECT_NEAR(gaussians.at(0, 1, SimTime::from_us(2500), 0).second, (before + after) / std::numbers::sqrt2,
@@ -50,7 +53,7 @@ TEST(LinkGaussians, HalfWayTheyAreTheMeanOfBothEndsAtUnchangedVariance) {
 
 TEST(LinkGaussians, WhatIsNotWorkedOutLiesWithinTheGivenDistance) {
     for (const SimTime coherence : {SimTime(), coherence_time}) {
-        const LinkGaussians gaussians(7, coherence);
+        const LinkGaussians gaussians(7, Purpose::fading, coherence);
         for (const double distance : {0.5, 1.0, 2.0, 3.0}) {
             const double chance = std::exp(-distance * distance / 2);
             int nothing = 0;
@@ -75,7 +78,7 @@ TEST(LinkGaussians, WhatIsNotWorkedOutLiesWithinTheGivenDistance) {
 }
 
 TEST(LinkGaussians, WithoutACoherenceTimeEachTransmissionHasItsOwn) {
-    const LinkGaussians fresh(7, SimTime());
+    const LinkGaussians fresh(7, Purpose::fading, SimTime());
     const double first = fresh.at(0, 1, SimTime::from_us(5), 10).first;
     EXPECT_EQ(first, fresh.at(1, 0, SimTime::from_us(6), 10).first);
     EXPECT_NE(first, fresh.at(0, 1, SimTime::from_us(5), 11).first);
@@ -83,7 +86,7 @@ TEST(LinkGaussians, WithoutACoherenceTimeEachTransmissionHasItsOwn) {
 }
 
 TEST(LinkGaussians, HaveMeanZeroVarianceOneAndNoCorrelationAtAnyTime) {
-    const LinkGaussians gaussians(7, coherence_time);
+    const LinkGaussians gaussians(7, Purpose::fading, coherence_time);
     constexpr int links = 40'000;
     for (const int us : {0, 1000, 2500, 4999}) {
         double sum = 0;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -63,8 +64,11 @@ TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
 }
 
 TEST_P(EveryPathLoss, IsTheSameForWhomItIsEnough) {
-    const Propagation propagation(config, 1);
-    for (int i = 0; i < 2000; ++i) {
+    const Propagation alone(config, 1);
+    config.shadowing_standard_deviation_db = 5;
+    const Propagation shadowed(config, 1);
+    for (int i = 0; i < 4000; ++i) {
+        const Propagation& propagation = i % 2 == 0 ? alone : shadowed;
         const Transmission sent = sent_from(place(), 0, SimTime::from_us(i));
         const Position there = place();
         const double distance_m = distance(sent.origin, there);
@@ -121,6 +125,57 @@ TEST(Propagation, FadingIsAFactorOnFreeSpace) {
     EXPECT_NEAR(factor, Fading(config, 5).gain(2, 6, SimTime::from_us(777), 0), 1e-12);
     EXPECT_NEAR(faded.gain(sent, {6, 0}, {500, 0, 10}, 500) / free.gain(sent, {6, 0}, {500, 0, 10}, 500),
                 factor, 1e-12);
+}
+
+TEST(Propagation, ShadowingAndFadingAreFactorsThatDoNotDependOnEachOther) {
+    const Transmission sent = sent_from({0, 0, 10}, 2, SimTime::from_us(1'234'000));
+    const auto gain = [&](const std::string& path_loss, double sigma_db) {
+        MediumConfig config;
+        config.path_loss = path_loss;
+        config.shadowing_standard_deviation_db = sigma_db;
+        return Propagation(config, 5).gain(sent, {6, 0}, {50, 0, 10}, 50);
+    };
+    for (const std::string_view name : path_loss_names) {
+        const std::string path_loss(name);
+        EXPECT_NE(gain(path_loss, 4), gain(path_loss, 0)) << name;
+        EXPECT_NEAR(gain(path_loss, 4) / gain(path_loss, 0),
+                    gain("FreeSpacePathLoss", 4) / gain("FreeSpacePathLoss", 0), 1e-12)
+            << name;
+    }
+}
+
+// In decibels, a product is a sum of independent numbers. Those of an exponentially distributed power have the mean −γ
+// 10 / ln 10 and the variance (10 / ln 10)² π² / 6, or 31.0 dB².
+TEST(Propagation, DecibelsOfShadowingAndRayleighFadingAddUp) {
+    constexpr double sigma_db = 4;
+    constexpr double db_per_log = 10 / std::numbers::ln10;
+    constexpr double variance =
+        sigma_db * sigma_db + db_per_log * db_per_log * std::numbers::pi * std::numbers::pi / 6;
+    constexpr int links = 20'000;
+    MediumConfig config;
+    config.path_loss = "RayleighFading";
+    config.shadowing_standard_deviation_db = sigma_db;
+    for (const double coherence_time_s : {0.0, 1.0}) {
+        config.coherence_time_s = coherence_time_s;
+        config.shadowing_decorrelation_time_s = coherence_time_s;
+        const Propagation propagation(config, 5);
+        const double path_gain = propagation.path_gain({}, {500, 0, 0}, 500, 2.412e9);
+        double sum = 0;
+        double sum_of_squares = 0;
+        for (int link = 1; link <= links; ++link) {
+            const Transmission sent =
+                sent_from({}, 0, SimTime::from_us(1'300'000), static_cast<std::uint64_t>(link));
+            const InterfaceId receiver{static_cast<NodeId>(link), 0};
+            const double gain_db =
+                db_from_ratio(propagation.gain(sent, receiver, {500, 0, 0}, 500) / path_gain);
+            sum += gain_db;
+            sum_of_squares += gain_db * gain_db;
+        }
+        const double mean = sum / links;
+        // Five standard errors. The fourth moment of these numbers is below five times the squared variance.
+        EXPECT_NEAR(mean, -std::numbers::egamma * db_per_log, 5 * std::sqrt(variance / links));
+        EXPECT_NEAR(sum_of_squares / links - mean * mean, variance, 5 * variance * std::sqrt(4.0 / links));
+    }
 }
 
 TEST(Propagation, ObstaclesAreAFactorOnIt) {

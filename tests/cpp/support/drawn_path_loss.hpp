@@ -10,7 +10,7 @@
 
 namespace netsim::test {
 
-// All except the name and the coherence time, for any model.
+// All except the name and the coherence times, for any model.
 inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws) {
     const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
     const auto log_between = [&draws](double low, double high) {
@@ -31,6 +31,7 @@ inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws)
     config.sigma_db = chance(0.1) ? 0 : between(0, 10);
     config.k_db = between(-20, 30);
     config.shape_factor = chance(0.2) ? 1 : log_between(0.5, 50);
+    config.shadowing_standard_deviation_db = chance(0.5) ? 0 : between(0, 10);
 }
 
 }  // namespace netsim::test

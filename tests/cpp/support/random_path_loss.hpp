@@ -25,6 +25,7 @@ inline RandomScenario with_random_path_loss(RandomScenario scenario) {
     const double until_s = scenario.talk.until.seconds();
     const double coherence_time_s = chance(0.5) ? log_between(1e-4, 1e-1) : until_s * between(0.1, 3);
     medium.coherence_time_s = chance(0.25) ? 0 : coherence_time_s;
+    medium.shadowing_decorrelation_time_s = chance(0.25) ? 0 : until_s * between(0.1, 3);
     const double lowest_m = chance(0.5) ? 0 : 1;
     const double highest_m = log_between(2, 200);
     for (NodeConfig& node : scenario.nodes) {

@@ -21,7 +21,7 @@ def test_its_lines_run(
         make_scenario("class Tested(Talker): pass", *block.strip().splitlines())
         for block in code_blocks("docs/how-to/choose-a-propagation-model.md", "ini")
     )
-    assert set(fading.medium) >= {"path_loss", "k_db"}
+    assert set(fading.medium) >= {"path_loss", "k_db", "shadowing_standard_deviation_db"}
     assert antennas.nodes[0].wlan[0].antenna["typename"].value == "ParabolicAntenna"
     assert len(obstacles.obstacles) == 2
     for scenario in (fading, antennas, obstacles):

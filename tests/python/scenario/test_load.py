@@ -161,6 +161,8 @@ def test_a_mistake_in_one_of_the_values_is_found_at_once(folder: Any) -> None:
         ("pathLoss.shapeFactor", "0.5", "shape_factor", 0.5),
         ("pathLoss.coherenceTime", "20ms", "coherence_time_s", 0.02),
         ("pathLoss.coherenceTime", "-1s", "coherence_time_s", -1.0),
+        ("shadowing.standardDeviation", "4dB", "shadowing_standard_deviation_db", 4.0),
+        ("shadowing.decorrelationTime", "500ms", "shadowing_decorrelation_time_s", 0.5),
         (
             "propagation.typename",
             '"ConstantSpeedPropagation"',
