@@ -40,6 +40,11 @@ def _path_loss_is(*names: str) -> Callable[[Scenario], bool]:
     return applies
 
 
+def _has_shadowing(scenario: Scenario) -> bool:
+    sigma = scenario.medium.get("shadowing_standard_deviation_db")
+    return _path_loss_is("LogNormalShadowing")(scenario) or (sigma is not None and float(sigma.value) > 0)
+
+
 def _has_obstacles(scenario: Scenario) -> bool:
     chosen = scenario.medium.get("obstacle_loss")
     return bool(scenario.obstacles) and chosen is not None and bool(chosen.value)
@@ -127,8 +132,8 @@ LEVELS = (
     Level(
         "shadowing",
         "a random gain of each link",
-        _FREE_SPACE,
-        _path_loss_is("LogNormalShadowing"),
+        {"*.radioMedium.pathLoss.sigma": "0", "*.radioMedium.shadowing.standardDeviation": "0dB"},
+        _has_shadowing,
     ),
     Level(
         "fading",

@@ -1,5 +1,6 @@
 """Runs of a configuration with any set of effects."""
 
+import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -7,6 +8,8 @@ from pathlib import Path
 import pytest
 
 import gradysim
+from gradysim.integrated.compiled_part import load_netsim
+from gradysim.integrated.network import medium_config
 from gradysim.ladder.campaign import Campaign, Effects, Observation
 from gradysim.scenario.errors import ConfigError
 
@@ -14,6 +17,7 @@ SCATTERED = """
 *.nodes[*].mobility.initialX = uniform(0m, 60m)
 *.nodes[*].mobility.initialY = uniform(0m, 60m)
 *.radioMedium.pathLoss.typename = "RayleighFading"
+*.radioMedium.shadowing.standardDeviation = 4dB
 """
 RANDOM_TIMES = "**.protocol.spread=0.05"
 RAIN = """
@@ -41,6 +45,41 @@ def test_effects_change_neither_positions_nor_times_of_messages(
     for level in campaign.levels:
         assert draws(campaign, campaign.all_effects - {level.name}) == full
     assert draws(campaign, frozenset()) == full
+
+
+def gains_db(campaign: Campaign, *left_out: str) -> list[float]:
+    """Return the gains of a link at several times, without some effects."""
+    medium = medium_config(campaign.scenario(campaign.all_effects - set(left_out), 0))
+    propagation = load_netsim().Propagation(medium, 1)
+    return [
+        10 * math.log10(propagation.gain((0, 0, 9), (500, 0, 9), 2.412e9, 0, 1, time_s))
+        for time_s in (0.0, 0.003, 0.21, 1.7, 2.5)
+    ]
+
+
+@pytest.mark.parametrize("fading", ["RayleighFading", "RicianFading", "NakagamiFading"])
+def test_shadowing_and_fading_change_nothing_of_each_other(
+    make_campaign: Callable[..., Campaign], fading: str
+) -> None:
+    path_loss = "*.radioMedium.pathLoss.alpha = 2.7\n*.radioMedium.pathLoss.systemLoss = 3dB\n"
+    free_space = gains_db(make_campaign(file=path_loss))
+    typename = f'*.radioMedium.pathLoss.typename = "{fading}"\n'
+    faded = gains_db(make_campaign(file=path_loss + typename))
+    sigma = "*.radioMedium.shadowing.standardDeviation = 4dB\n"
+    shadowed = gains_db(make_campaign(file=path_loss + sigma))
+
+    campaign = make_campaign(file=path_loss + typename + sigma)
+    assert gains_db(campaign, "shadowing") == faded
+    assert gains_db(campaign, "fading") == shadowed
+    assert gains_db(campaign, "shadowing", "fading") == free_space
+    assert gains_db(campaign) == pytest.approx(
+        [a + b - c for a, b, c in zip(shadowed, faded, free_space, strict=True)]
+    )
+
+
+def test_without_a_spread_shadowing_is_free_space(make_campaign: Callable[..., Campaign]) -> None:
+    shadowing = '*.radioMedium.pathLoss.typename = "LogNormalShadowing"\n'
+    assert gains_db(make_campaign(file=shadowing), "shadowing") == gains_db(make_campaign())
 
 
 def test_runs_have_different_seeds(make_campaign: Callable[..., Campaign]) -> None:

@@ -15,6 +15,10 @@ BOX = """
 *.environment.obstacle[0].minZ = 0m
 *.environment.obstacle[0].maxZ = 1m
 """
+SHADOWED_FADING = """
+*.radioMedium.pathLoss.typename = "RayleighFading"
+*.radioMedium.shadowing.standardDeviation = 4dB
+"""
 IDEAL_OBSTACLES = '*.radioMedium.obstacleLoss.typename = "IdealObstacleLoss"\n'
 
 
@@ -30,7 +34,10 @@ def test_the_default_radio_has_no_effect_beyond_noise(make_campaign: Callable[..
     ("line", "added"),
     [
         ('*.radioMedium.pathLoss.typename = "LogNormalShadowing"', ["shadowing"]),
+        ("*.radioMedium.shadowing.standardDeviation = 4dB", ["shadowing"]),
+        ("*.radioMedium.shadowing.standardDeviation = 0dB", []),
         ('*.radioMedium.pathLoss.typename = "RayleighFading"', ["fading"]),
+        (SHADOWED_FADING, ["shadowing", "fading"]),
         ('*.radioMedium.pathLoss.typename = "RicianFading"', ["fading"]),
         ('*.radioMedium.pathLoss.typename = "NakagamiFading"', ["fading"]),
         ('*.radioMedium.pathLoss.typename = "TwoRayInterference"', ["ground"]),

@@ -8,6 +8,7 @@ from gradysim.integrated.calibration import calibrate
 from gradysim.ladder.campaign import Campaign
 
 FADING = '*.radioMedium.pathLoss.typename = "RayleighFading"\n'
+SHADOWING = "*.radioMedium.shadowing.standardDeviation = 4dB\n"
 DIPOLES = '**.antenna.typename = "DipoleAntenna"\n'
 NOISE = "*.radioMedium.backgroundNoise.power = -90dBm\n"
 
@@ -18,12 +19,14 @@ def ranges_m(campaign: Campaign, effects: frozenset[str] = frozenset({"range"}))
     return [float(node.wlan[0].radio["communication_range_m"].value) for node in scenario.nodes]
 
 
-@pytest.mark.parametrize("file", ["", FADING, DIPOLES, NOISE, FADING + DIPOLES + NOISE])
+@pytest.mark.parametrize(
+    "file", ["", FADING, SHADOWING, DIPOLES, NOISE, FADING + SHADOWING + DIPOLES + NOISE]
+)
 @pytest.mark.parametrize("power_mw", [0.32, 20])
 def test_half_of_the_frames_arrive_at_the_radius(
     make_campaign: Callable[..., Campaign], file: str, power_mw: float
 ) -> None:
-    """`calibrate` finds the power of the file for that range, without noise, fading and antennas."""
+    """`calibrate` finds the power of the file for that range, without the effects in the file."""
     campaign = make_campaign(f"**.transmitter.power={power_mw}mW", file=file)
     radius_m, *others = ranges_m(campaign)
     assert others == [radius_m, radius_m]
