@@ -3,8 +3,8 @@
 // A deterministic function of the run's seed, the pair of radios and the time (link_gaussians.hpp).
 // So the channel is the same in both directions, and equal calls give equal results. With x, y, z
 // standard normal, and a mean of 1 except for shadowing:
-//   LogNormalShadowing, and shadowing beside a path loss: 10^(σ z / 10), σ in dB: 1 in the median. Source: T. S. Rappaport, "Wireless
-//     Communications: Principles and Practice", 2nd ed. 2002, 4.9.2.
+//   LogNormalShadowing, and shadowing beside a path loss: 10^(σ z / 10), σ in dB: 1 in the median. Source:
+//     T. S. Rappaport, "Wireless Communications: Principles and Practice", 2nd ed. 2002, 4.9.2.
 //   RayleighFading: (x² + y²) / 2, no line of sight. Source: Rappaport, 5.6.1.
 //   RicianFading: ((x + √(2K))² + y²) / (2 (K + 1)), K the power of the line of sight over that of all scattered waves.
 //     Source: S. O. Rice, "Mathematical analysis of random noise", Bell System Technical Journal 24, 1945, 3.10.
@@ -31,9 +31,9 @@ class Fading {
 public:
     // Of config.path_loss. is_none() if that is a model without fading, or shadowing of 0 dB.
     Fading(const MediumConfig& config, std::uint64_t seed);
-    // The shadowing beside any path loss, with random numbers of its own. is_none() for 0 dB. Times Rayleigh fading, it
-    // is the channel of H. Suzuki, "A statistical model for urban radio propagation", IEEE Transactions on Communications
-    // 25, 1977.
+    // The shadowing beside any path loss, with random numbers of its own. is_none() for 0 dB. Times
+    // Rayleigh fading, it is the channel of H. Suzuki, "A statistical model for urban radio
+    // propagation", IEEE Transactions on Communications 25, 1977.
     static Fading shadowing(const MediumConfig& config, std::uint64_t seed);
 
     // The factor, from 0 to max(), between the interfaces of streams `a` and `b` (interface_id.hpp)
@@ -55,7 +55,7 @@ private:
     explicit Fading(const LinkGaussians& gaussians) : gaussians_(gaussians) {}
 
     void set_log_normal(double sigma_db);
-    // At the gain of a pair that is `farthest` from 0.
+    // Cuts the model off at the gain of a pair that is `farthest` from 0.
     void cut_off(double farthest);
     double untruncated(const GaussianPair& normal) const;
 

@@ -1,5 +1,5 @@
-// Gaussian numbers of a link, as a function of the run's seed, the purpose, the pair of its ends and the time.
-// Fading and shadowing use them.
+// Gaussian numbers of a link, as a function of the run's seed, the purpose, the pair of its ends
+// and the time. Fading and shadowing use them.
 //
 // Nothing is stored per link, and the order of calls does not matter: calls for the same link and
 // time give the same numbers, from either end.

@@ -1,8 +1,8 @@
 // Propagation of a transmission from one end of a link to the other: gain and delay.
 //
-// The gain is the product of path loss (with or without a ground), shadowing, fading and obstacles. Antennas
-// are separate (antennas.hpp). The medium computes gains for pairs of radios. To find the radios in
-// reach of a sender, it uses upper bounds that no gain exceeds.
+// The gain is the product of path loss (with or without a ground), shadowing, fading and obstacles.
+// Antennas are separate (antennas.hpp). The medium computes gains for pairs of radios. To find the
+// radios in reach of a sender, it uses upper bounds that no gain exceeds.
 #pragma once
 
 #include <cstdint>
