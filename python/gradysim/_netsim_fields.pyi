@@ -124,6 +124,8 @@ class MacFields:
     own_frames_set_nav: bool
     """Whether a node's own frames reserve the channel against itself, as in INET; not in the
     standard."""
+    unanswered_rts_resets_nav: bool
+    """Whether the channel that an RTS reserved is free again if no frame follows it, as in ns-3."""
 
 class CsmaFields:
     use_acks: bool

@@ -94,6 +94,8 @@ constexpr Field fields[] = {
      with_minstrel},
     {NETSIM_FIELD(MacConfig, own_frames_set_nav), "mac.rx.ownFramesSetNav", boolean(),
      "Whether a node's own frames reserve the channel against itself, as in INET; not in the standard"},
+    {NETSIM_FIELD(MacConfig, unanswered_rts_resets_nav), "mac.rx.unansweredRtsResetsNav", boolean(),
+     "Whether the channel that an RTS reserved is free again if no frame follows it, as in ns-3"},
 };
 
 }  // namespace

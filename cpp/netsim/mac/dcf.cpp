@@ -149,10 +149,11 @@ void Dcf::frame_received(const Transmission& transmission) {
         last_frame_was_broken_ = false;
         contention_.frame_received();
     }
+    keep_nav();
     const Frame& frame = *transmission.frame;
     const bool for_this_station = frame.receiver == radio_.node();
-    if (!for_this_station) {
-        set_nav(frame.duration_field);
+    if (!for_this_station && set_nav(frame.duration_field) && frame.kind == FrameKind::rts) {
+        reset_nav_after_rts(*transmission.mode);
     }
     if (is_awaiting_answer()) {
         const FrameKind awaited = exchange_ == Exchange::awaiting_cts ? FrameKind::cts : FrameKind::ack;
@@ -196,6 +197,9 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
 
 void Dcf::frame_corrupted() {
     last_frame_was_broken_ = true;
+    if (!radio_.has_lost_header()) {
+        keep_nav();
+    }
     contention_.frame_corrupted();
     radio_.report_channel();  // EIFS begins when the channel is free
     if (is_awaiting_answer() && !simulator().is_pending(answer_timeout_)) {
@@ -260,10 +264,10 @@ void Dcf::own_frame_ended(const Frame& frame) {
     }
 }
 
-void Dcf::set_nav(SimTime duration) {
+bool Dcf::set_nav(SimTime duration) {
     const SimTime end = simulator().now() + duration;
     if (duration <= SimTime{} || end <= nav_end_) {
-        return;
+        return false;
     }
     nav_end_ = end;
     nav_sequence_number_ = simulator().reserve_sequence_numbers(1);
@@ -271,6 +275,39 @@ void Dcf::set_nav(SimTime duration) {
     if (watches_channel_) {
         await_end_of_nav();
         update_contention();
+    }
+    return true;
+}
+
+// Source: IEEE 802.11-2020, 10.3.2.4 (NAVTimeout).
+void Dcf::reset_nav_after_rts(const Mode& rts_mode) {
+    if (!parameters_.config.unanswered_rts_resets_nav) {
+        return;
+    }
+    const Mode& cts_mode = parameters_.modes.response_mode(rts_mode);
+    const SimTime timeout = (parameters_.timing.sifs + parameters_.timing.slot) * 2 +
+                            cts_mode.duration(cts_bytes) + cts_mode.preamble + cts_mode.header;
+    awaits_frame_after_rts_ = true;
+    nav_reset_ = simulator().schedule_after(timeout, [this] { reset_nav(); });
+}
+
+void Dcf::reset_nav() {
+    awaits_frame_after_rts_ = false;
+    if (radio_.is_receiving_data() || !is_nav_set()) {
+        return;
+    }
+    nav_end_ = simulator().now();
+    simulator().cancel(nav_event_);
+    if (watches_channel_) {
+        update_contention();
+    }
+}
+
+// A frame followed the RTS.
+void Dcf::keep_nav() {
+    if (awaits_frame_after_rts_) {
+        awaits_frame_after_rts_ = false;
+        simulator().cancel(nav_reset_);
     }
 }
 

@@ -24,6 +24,8 @@
 // INET 4.5. One choice of INET violates the standard and is an option, own_frames_set_nav: a
 // station's own frames set its NAV. So a station whose RTS failed stays silent for the duration of
 // the planned exchange.
+// The standard permits another option, unanswered_rts_resets_nav: a NAV that an RTS set ends if no frame
+// begins in the time of the CTS.
 #pragma once
 
 #include <cstddef>
@@ -103,7 +105,12 @@ private:
     void respond_after_sifs(Frame response, const Mode& mode);
     bool is_nav_set() const { return nav_end_ > simulator().now(); }
     void own_frame_ended(const Frame& frame);
-    void set_nav(SimTime duration);
+    // Whether it ends later than before.
+    bool set_nav(SimTime duration);
+    // Unless a frame follows the RTS that set it.
+    void reset_nav_after_rts(const Mode& rts_mode);
+    void reset_nav();
+    void keep_nav();
     bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
     void await_end_of_nav();
     void update_contention();
@@ -121,6 +128,7 @@ private:
     bool watches_channel_ = false;  // and notifies contention
     // Contention is notified of a correct frame only if this is set, since it is in another cache line.
     bool last_frame_was_broken_ = false;
+    bool awaits_frame_after_rts_ = false;  // nav_reset_ is pending
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     int attempts_ = 0;  // failed attempts of the frame in progress that were on the air
@@ -130,6 +138,8 @@ private:
     Retry retry_;            // of the frame in progress
     Contention contention_;
     TransmitQueue queue_;  // its frame in progress was granted the channel at least once
+
+    EventHandle nav_reset_;  // pending after an RTS that set the NAV
 
     // Of the event at the end of the NAV; reserved when the NAV was set.
     SequenceNumber nav_sequence_number_ = 0;

@@ -155,7 +155,9 @@ void Radio::end_header() {
     const Transmission& lost = present_.unlock();
     add_to_fingerprint(lost, FrameFate::header_error);
     book(lost, FrameFate::header_error);
+    has_lost_header_ = true;
     listener_->frame_corrupted();
+    has_lost_header_ = false;
     update_busy();
 }
 

@@ -120,6 +120,10 @@ public:
 
     bool is_transmitting() const { return transmitting_; }
     bool is_receiving() const { return present_.is_locked(); }
+    // The same without the PHY header, where that is decided separately (SNIR by chunks).
+    bool is_receiving_data() const { return is_receiving() && !simulator().is_pending(header_end_); }
+    // Within RadioListener::frame_corrupted: whether the PHY header was lost.
+    bool has_lost_header() const { return has_lost_header_; }
     // Whether the radio transmits, is locked on to a frame, or noise and all arrivals together reach
     // the ED threshold.
     bool is_channel_busy() const { return busy_; }
@@ -174,6 +178,7 @@ private:
     bool reports_ : 1 = false;  // while it reports the end of a frame: the channel counts as busy
     bool is_observed_ : 1 = false;
     bool others_are_weak_ : 1 = false;
+    bool has_lost_header_ : 1 = false;
     bool reports_channel_ : 1 = true;
     bool watches_energy_ : 1 = true;  // except while it transmits
     std::uint32_t stream_;            // of its interface (InterfaceId)
