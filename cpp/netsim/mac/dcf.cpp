@@ -200,7 +200,9 @@ void Dcf::frame_corrupted() {
     if (!radio_.has_lost_header()) {
         keep_nav();
     }
-    contention_.frame_corrupted();
+    if (!radio_.has_lost_header() || !parameters_.config.ns3_eifs) {
+        contention_.frame_corrupted();
+    }
     radio_.report_channel();  // EIFS begins when the channel is free
     if (is_awaiting_answer() && !simulator().is_pending(answer_timeout_)) {
         attempt_failed();

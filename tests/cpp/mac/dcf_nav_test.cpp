@@ -10,11 +10,14 @@ namespace {
 
 using test::ack_duration;
 using test::Air;
+using test::BareRadio;
 using test::data_duration;
 using test::difs;
+using test::eifs;
 using test::light_microsecond_m;
 using test::of_kind;
 using test::sifs;
+using test::slot;
 using test::Sniffer;
 using test::Station;
 using test::us;
@@ -79,6 +82,71 @@ TEST_F(HiddenResponder, ABroadcastLeavesNoNav) {
     air.at(us(40), [&] { c->send(broadcast_id, 100); });
     air.run();
     EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast).at(1).start, data_duration + us(1) + difs);
+}
+
+// A station that hears an RTS for another one, and has a message to send. As in ns-3, the NAV of 1 ms
+// ends after the time of a CTS and one more PHY header, unless a frame follows.
+class UnansweredRts : public testing::Test {
+protected:
+    static constexpr SimTime rts_end = us(34);
+    static constexpr SimTime cts_duration = us(34);
+    static constexpr SimTime phy_header = us(20);  // with its preamble
+    static constexpr SimTime reset = rts_end + sifs + cts_duration + sifs + phy_header + slot + slot;
+    static constexpr SimTime nav_end = rts_end + us(1000);
+    static constexpr NodeId stranger = 99;
+
+    void SetUp() override {
+        MacConfig mac = without_backoff();
+        mac.unanswered_rts_resets_nav = true;
+        RadioConfig radio;
+        radio.snir_mode = snir_by_chunks;
+        Station& station = air.add_station({0, 0, 0}, mac, radio);
+        sniffer = &air.add_sniffer({0, 0, 0});
+        sends(us(0), FrameKind::rts, us(1000));
+        air.at(us(20), [&station] { station.send(broadcast_id, 100); });
+    }
+    // By a radio of its own.
+    void sends(SimTime time, FrameKind kind, SimTime duration_field) {
+        BareRadio& radio = air.add_radio({0, 0, 0});
+        air.at(time, [&radio, kind, duration_field] { radio.send_control(kind, stranger, duration_field); });
+    }
+    void expect_message_at(SimTime time) {
+        air.run();
+        EXPECT_EQ(of_kind(*sniffer, FrameKind::broadcast).at(0).start, time);
+    }
+
+    Air air;
+    Sniffer* sniffer = nullptr;
+};
+
+TEST_F(UnansweredRts, ResetsTheNav) { expect_message_at(reset + difs); }
+
+TEST_F(UnansweredRts, KeepsTheNavIfAFrameFollows) {
+    sends(rts_end + sifs, FrameKind::cts, us(10));
+    expect_message_at(nav_end + difs);
+}
+
+TEST_F(UnansweredRts, KeepsTheNavIfAFrameIsBeingReceived) {
+    sends(reset - phy_header - us(1), FrameKind::cts, us(10));
+    expect_message_at(nav_end + difs);
+}
+
+TEST_F(UnansweredRts, ResetsTheNavDuringThePhyHeaderOfTheNextFrame) {
+    const SimTime start = reset - phy_header + us(1);
+    sends(start, FrameKind::cts, us(10));
+    expect_message_at(start + cts_duration + us(10) + difs);
+}
+
+TEST_F(UnansweredRts, ResetsTheNavIfThePhyHeaderThatFollowsIsLost) {
+    sends(rts_end + sifs, FrameKind::cts, us(10));
+    sends(rts_end + sifs, FrameKind::cts, us(10));
+    expect_message_at(rts_end + sifs + cts_duration + eifs);
+}
+
+TEST_F(UnansweredRts, KeepsALongerNavOfAnEarlierFrame) {
+    sends(rts_end + sifs, FrameKind::cts, us(2000));
+    sends(rts_end + us(100), FrameKind::rts, us(100));
+    expect_message_at(rts_end + sifs + cts_duration + us(2000) + difs);
 }
 
 }  // namespace

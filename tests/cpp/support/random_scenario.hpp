@@ -131,6 +131,7 @@ inline RandomScenario make_random_scenario(std::uint64_t seed, int fewest_nodes 
         if (with_ns3_rules) {
             mac.ns3_eifs = ns3_draws.uniform() < 0.5;
             mac.ns3_station_window = ns3_draws.uniform() < 0.5;
+            mac.unanswered_rts_resets_nav = ns3_draws.uniform() < 0.5;
         }
         node.mobility.telemetry_interval_s = 0;
         scenario.nodes.push_back(node);

@@ -23,7 +23,7 @@ from verification.reference_run import FOLDER, load_reference
 SOURCE = Path(__file__).with_name("stations.cpp")
 MODULES = ("core", "network", "mobility", "propagation", "wifi", "spectrum", "energy")
 NAME = "ns3_networks"
-COLUMNS = ("version", "config", "seed", "station", "received", "data", "rts", "given_up")
+COLUMNS = ("version", "phy", "config", "seed", "station", "received", "data", "rts", "given_up")
 
 
 def compiled(prefix: Path | None, version: str, folder: Path) -> Path:
@@ -48,11 +48,12 @@ def mode_name(standard: str, mbps: float) -> str:
     return f"{'Erp' if standard == 'g' else ''}OfdmRate{rate}Mbps"
 
 
-def arguments(scenario: Scenario, seed: int) -> list[str]:
+def arguments(scenario: Scenario, phy: str, seed: int) -> list[str]:
     """Return the options of the program for a network."""
     wlan = scenario.nodes[-1].wlan[0]
     standard = str(wlan.mac["op_mode"].value)[0]
     options = {
+        "phy": phy,
         "standard": standard,
         "rate": mode_name(standard, number(wlan.mac["bitrate_bps"]) / 1e6),
         "control": mode_name(standard, number(wlan.mac["control_bitrate_bps"]) / 1e6),
@@ -95,6 +96,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--prefix", type=Path, help="directory `ns3` of the wheel on PyPI")
     parser.add_argument("--version", default="3.37")
+    parser.add_argument("--phy", choices=("yans", "spectrum"), default="yans")
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--networks", nargs="*", default=networks())
     given = parser.parse_args()
@@ -105,12 +107,12 @@ def main() -> None:
         for config in given.networks:
             scenario = load_reference(NAME, config)
             for seed in range(1, given.seeds + 1):
-                command = [str(program), *arguments(scenario, seed)]
+                command = [str(program), *arguments(scenario, given.phy, seed)]
                 outcome = subprocess.run(
                     command, input=stations(scenario), capture_output=True, text=True, check=True
                 )
                 for line in outcome.stdout.splitlines():
-                    rows.writerow((given.version, config, seed, *line.split(",")))
+                    rows.writerow((given.version, given.phy, config, seed, *line.split(",")))
                 sys.stdout.flush()
 
 

@@ -16,6 +16,7 @@
 #include <ns3/mobility-module.h>
 #include <ns3/network-module.h>
 #include <ns3/propagation-module.h>
+#include <ns3/spectrum-module.h>
 #include <ns3/wifi-module.h>
 
 namespace {
@@ -33,6 +34,7 @@ struct Counts {
 };
 
 struct Options {
+    std::string phy = "yans";
     std::string standard = "g";
     std::string rate = "ErpOfdmRate6Mbps";
     std::string control = "ErpOfdmRate6Mbps";
@@ -79,6 +81,26 @@ void gave_up(uint32_t station, ns3::Mac48Address) {
     }
 }
 
+ns3::Ptr<ns3::PropagationLossModel> path_loss() {
+    auto loss = ns3::CreateObject<ns3::FriisPropagationLossModel>();
+    loss->SetFrequency(2.412e9);
+    return loss;
+}
+
+ns3::Ptr<ns3::YansWifiChannel> yans_channel() {
+    auto channel = ns3::CreateObject<ns3::YansWifiChannel>();
+    channel->SetPropagationDelayModel(ns3::CreateObject<ns3::ConstantSpeedPropagationDelayModel>());
+    channel->SetPropagationLossModel(path_loss());
+    return channel;
+}
+
+ns3::Ptr<ns3::SpectrumChannel> spectrum_channel() {
+    auto channel = ns3::CreateObject<ns3::MultiModelSpectrumChannel>();
+    channel->SetPropagationDelayModel(ns3::CreateObject<ns3::ConstantSpeedPropagationDelayModel>());
+    channel->AddPropagationLossModel(path_loss());
+    return channel;
+}
+
 ns3::WifiStandard standard() {
     return options.standard == "a"   ? ns3::WIFI_STANDARD_80211a
            : options.standard == "b" ? ns3::WIFI_STANDARD_80211b
@@ -89,6 +111,7 @@ ns3::WifiStandard standard() {
 
 int main(int argc, char** argv) {
     ns3::CommandLine command;
+    command.AddValue("phy", "yans or spectrum: YansWifiPhy or SpectrumWifiPhy", options.phy);
     command.AddValue("standard", "a, b or g", options.standard);
     command.AddValue("rate", "WifiMode of data and broadcast frames", options.rate);
     command.AddValue("control", "WifiMode of RTS frames", options.control);
@@ -123,11 +146,11 @@ int main(int argc, char** argv) {
     mobility.SetMobilityModel("ns3::ConstantPositionMobilityModel");
     mobility.Install(stations);
 
-    ns3::YansWifiChannelHelper channel;
-    channel.SetPropagationDelay("ns3::ConstantSpeedPropagationDelayModel");
-    channel.AddPropagationLoss("ns3::FriisPropagationLossModel", "Frequency", ns3::DoubleValue(2.412e9));
-    ns3::YansWifiPhyHelper phy;
-    phy.SetChannel(channel.Create());
+    ns3::YansWifiPhyHelper yans;
+    ns3::SpectrumWifiPhyHelper spectrum;
+    ns3::WifiPhyHelper& phy = options.phy == "yans" ? static_cast<ns3::WifiPhyHelper&>(yans) : spectrum;
+    yans.SetChannel(yans_channel());
+    spectrum.SetChannel(spectrum_channel());
     phy.Set("TxPowerStart", ns3::DoubleValue(options.power_dbm));
     phy.Set("TxPowerEnd", ns3::DoubleValue(options.power_dbm));
     ns3::WifiHelper wifi;
