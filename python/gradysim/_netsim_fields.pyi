@@ -100,7 +100,7 @@ class MacFields:
     """Whether EIFS follows INET's rules instead of the standard's."""
     ns3_eifs: bool
     """Whether EIFS begins at the end of the corrupted frame, as in ns-3, instead of when the channel is
-    free."""
+    free; a lost PHY header brings none."""
     rate_control: str
     """How the bit rate of unicast frames follows the losses; "": it is constant."""
     initial_rate_bps: float

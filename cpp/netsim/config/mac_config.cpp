@@ -69,7 +69,7 @@ constexpr Field fields[] = {
      "Whether EIFS follows INET's rules instead of the standard's"},
     {NETSIM_FIELD(MacConfig, ns3_eifs), "mac.dcf.channelAccess.contention.ns3Eifs", boolean(),
      "Whether EIFS begins at the end of the corrupted frame, as in ns-3, instead of when the channel is "
-     "free"},
+     "free; a lost PHY header brings none"},
     {NETSIM_FIELD(MacConfig, rate_control), "mac.dcf.rateControl.typename", one_of(rate_control_names),
      "How the bit rate of unicast frames follows the losses; \"\": it is constant"},
     {NETSIM_FIELD(MacConfig, initial_rate_bps), "mac.dcf.rateControl.initialRate", bitrate(),

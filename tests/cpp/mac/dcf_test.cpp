@@ -14,8 +14,11 @@
 namespace netsim {
 namespace {
 
-using test::ack_duration;
 using test::Air;
+using test::BareRadio;
+using test::Sniffer;
+using test::Station;
+using test::ack_duration;
 using test::data_duration;
 using test::difs;
 using test::eifs;
@@ -24,8 +27,6 @@ using test::mac_of;
 using test::of_kind;
 using test::sifs;
 using test::slot;
-using test::Sniffer;
-using test::Station;
 using test::us;
 using test::without_backoff;
 
@@ -255,6 +256,23 @@ TEST_F(DcfTest, ABrokenFrameIsFollowedByEifs) {
     air.at(us(40), [&] { station.send(broadcast_id, 100); });
     air.run();
     EXPECT_EQ(starts(FrameKind::broadcast), (std::vector{us(1), us(1) + data_duration + eifs}));
+}
+
+// As in ns-3: two frames from other places that begin together.
+TEST_F(DcfTest, ALostPhyHeaderIsNotFollowedByNs3sEifs) {
+    MacConfig mac = without_backoff();
+    mac.ns3_eifs = true;
+    RadioConfig radio;
+    radio.snir_mode = snir_by_chunks;
+    Station& station = air.add_station({0, 0, 0}, mac, radio);
+    Sniffer& sniffer = air.add_sniffer({0, 0, 0});
+    for (int i = 0; i < 2; ++i) {
+        BareRadio& peer = air.add_radio({0, 0, 0});
+        air.at(us(0), [&peer] { peer.send_control(FrameKind::cts, broadcast_id, SimTime()); });
+    }
+    air.at(us(30), [&station] { station.send(broadcast_id, 100); });
+    air.run();
+    EXPECT_EQ(of_kind(sniffer, FrameKind::broadcast).at(0).start, us(34) + difs);
 }
 
 TEST_F(DcfTest, TheQueueHoldsAHundredAndTheOneInProgress) {
