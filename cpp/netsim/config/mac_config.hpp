@@ -40,10 +40,10 @@ struct MacConfig {
     // A station is idle after the backoff that follows its last frame. There is such a backoff even if no other frame
     // waits (IEEE 802.11-2020, 10.3.4.2).
     bool skip_backoff_if_idle = false;
-    bool own_frames_set_nav = true;  // as in INET; in the standard, only frames of other stations do
+    bool own_frames_set_nav = true;          // as in INET; in the standard, only frames of other stations do
     bool unanswered_rts_resets_nav = false;  // as in ns-3; the standard permits it
-    bool inet_eifs = false;          // mac/contention.hpp
-    bool ns3_eifs = false;           // mac/contention.hpp
+    bool inet_eifs = false;                  // mac/contention.hpp
+    bool ns3_eifs = false;                   // mac/contention.hpp
 
     std::string rate_control;  // of unicast frames, attempt by attempt
     double initial_rate_bps = -1;

@@ -119,7 +119,9 @@ protected:
     Sniffer* sniffer = nullptr;
 };
 
-TEST_F(UnansweredRts, ResetsTheNav) { expect_message_at(reset + difs); }
+TEST_F(UnansweredRts, ResetsTheNav) {
+    expect_message_at(reset + difs);
+}
 
 TEST_F(UnansweredRts, KeepsTheNavIfAFrameFollows) {
     sends(rts_end + sifs, FrameKind::cts, us(10));

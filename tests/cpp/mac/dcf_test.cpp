@@ -14,11 +14,9 @@
 namespace netsim {
 namespace {
 
+using test::ack_duration;
 using test::Air;
 using test::BareRadio;
-using test::Sniffer;
-using test::Station;
-using test::ack_duration;
 using test::data_duration;
 using test::difs;
 using test::eifs;
@@ -27,6 +25,8 @@ using test::mac_of;
 using test::of_kind;
 using test::sifs;
 using test::slot;
+using test::Sniffer;
+using test::Station;
 using test::us;
 using test::without_backoff;
 

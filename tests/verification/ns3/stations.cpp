@@ -9,15 +9,14 @@
 #include <cstdio>
 #include <functional>
 #include <iostream>
-#include <string>
-#include <vector>
-
 #include <ns3/core-module.h>
 #include <ns3/mobility-module.h>
 #include <ns3/network-module.h>
 #include <ns3/propagation-module.h>
 #include <ns3/spectrum-module.h>
 #include <ns3/wifi-module.h>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -172,9 +171,10 @@ int main(int argc, char** argv) {
         device->GetRemoteStationManager()->TraceConnectWithoutContext("MacTxFinalRtsFailed",
                                                                       ns3::MakeBoundCallback(&gave_up, i));
         if (destinations[i] != nobody) {
-            const ns3::Address destination = destinations[i] == everyone
-                                                 ? device->GetBroadcast()
-                                                 : devices.Get(static_cast<uint32_t>(destinations[i]))->GetAddress();
+            const ns3::Address destination =
+                destinations[i] == everyone
+                    ? device->GetBroadcast()
+                    : devices.Get(static_cast<uint32_t>(destinations[i]))->GetAddress();
             ns3::Simulator::ScheduleWithContext(i, ns3::Seconds(uniform->GetValue(0, options.spread_s)),
                                                 &send_burst, device, destination);
         }
