@@ -17,8 +17,8 @@
 // `inet_eifs`, as in INET, it applies only at a station that waits for the channel, and begins at the
 // end of the corrupted frame. A correct frame does not end it, and a busy period that ends within it
 // is followed by a whole EIFS. With `ns3_eifs`, it also begins at the end of the corrupted frame,
-// even if others still make the channel busy. A lost PHY header brings
-// none. Its end is that of the standard.
+// even if others still make the channel busy. A lost PHY header brings none. Its end is that of the
+// standard.
 //
 // Two stations whose slots end at the same instant both transmit and collide: neither can sense the
 // other in time. A grant is the last event of its instant, so that it sees all other events of that
