@@ -109,6 +109,7 @@ py::dict defaults_row(const Schema& schema, const Field& field) {
     static MediumConfig narrowband_medium{std::string(ieee802154_scalar_medium)};
     static MobilityConfig mobility{};
     static ObstacleConfig obstacle{};
+    static WindConfig wind{};
     const auto parts = [&](InterfaceConfig& interface) -> void* {
         if (&schema == &InterfaceConfig::schema) {
             return &interface;
@@ -129,6 +130,8 @@ py::dict defaults_row(const Schema& schema, const Field& field) {
         row[""] = default_of(field, &mobility);
     } else if (&schema == &ObstacleConfig::schema) {
         row[""] = default_of(field, &obstacle);
+    } else if (&schema == &WindConfig::schema) {
+        row[""] = default_of(field, &wind);
     } else {
         row[""] = default_of(field, parts(station));
         row["802.15.4"] = default_of(field, parts(device));
@@ -194,6 +197,10 @@ void bind_config(py::module_& module) {
     mobility.def(py::init<>());
     bind_fields(mobility);
 
+    py::class_<WindConfig> wind(module, "WindConfig");
+    wind.def(py::init<>());
+    bind_fields(wind);
+
     py::class_<InterfaceConfig> interface(module, "InterfaceConfig");
     interface.def_readwrite("radio", &InterfaceConfig::radio)
         .def_readwrite("mac", &InterfaceConfig::mac)
@@ -224,6 +231,7 @@ void bind_config(py::module_& module) {
                 return interfaces;
             })
         .def_readwrite("mobility", &NodeConfig::mobility)
+        .def_readwrite("wind", &NodeConfig::wind)
         .def_property(
             "initial_position",
             [](const NodeConfig& config) {

@@ -13,6 +13,7 @@ from gradysim._netsim_fields import (
     MobilityFields,
     ObstacleFields,
     RadioFields,
+    WindFields,
 )
 
 class ConfigError(ValueError):
@@ -143,6 +144,9 @@ class CsmaConfig(CsmaFields):
 class MobilityConfig(MobilityFields):
     def validate(self) -> None: ...
 
+class WindConfig(WindFields):
+    def validate(self) -> None: ...
+
 class InterfaceConfig(InterfaceFields):
     """Its type chooses the MAC and the defaults of the radio, so it stays what it was at the start."""
 
@@ -161,6 +165,7 @@ class NodeConfig:
     @property
     def wlan(self) -> tuple[InterfaceConfig, ...]: ...
     mobility: MobilityConfig
+    wind: WindConfig
     initial_position: tuple[float, float, float]
     def __init__(self, name: str, interfaces: Sequence[str] = ...) -> None: ...
     def validate(self) -> None: ...

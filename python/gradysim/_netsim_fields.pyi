@@ -7,13 +7,19 @@ MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]
 class MobilityFields:
     typename: str
     speed_mps: float
-    """Speed; with MasslessMobility and autopilots until the protocol sets another one, as every mission
-    of the plugin does."""
+    """Speed; with MasslessMobility, QuadcopterMobility and autopilots until the protocol sets another
+    one, as every mission of the plugin does."""
     telemetry_interval_s: float
     """Time between two calls of handle_telemetry, at least 1us; 0s: no calls. In prototype mode the
     call comes with the first update of all positions at or after its time. Positions are updated every
-    10ms, or as often as the shortest interval says; beside autopilots the interval cannot be shorter
-    than that."""
+    10ms, or as often as the shortest interval says; beside quadcopters and autopilots the interval
+    cannot be shorter than that."""
+    position_error_m: float
+    """Standard deviation of the error of the position that telemetry reports, on each horizontal axis;
+    of z it is 1.5 times as large. QuadcopterMobility flies by this position; radios are where the node
+    is."""
+    position_error_time_s: float
+    """Time in which the error changes: after it, its correlation is 1/e."""
     initial_heading_rad: float
     """How the node is turned at the start: from the x axis to the y axis."""
     initial_elevation_rad: float
@@ -292,3 +298,14 @@ class ObstacleFields:
     """Relative permittivity; -1: that of the material."""
     conductivity_spm: float
     """Conductivity in S/m; -1: that of the material."""
+
+class WindFields:
+    speed_mps: float
+    """Speed of the wind. It acts on vehicles with inertia, QuadcopterMobility and ArdupilotMobility
+    (docs/how-to/fly-with-inertia.md)."""
+    heading_rad: float
+    """Direction in which the air moves, from the x axis to the y axis."""
+    gusts_mps: float
+    """Standard deviation of the gusts on each axis. Each vehicle has gusts of its own."""
+    gust_time_s: float
+    """Time in which gusts change: after it, their correlation is 1/e."""

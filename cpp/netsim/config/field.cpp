@@ -14,6 +14,7 @@
 #include "netsim/config/nearest_name.hpp"
 #include "netsim/config/obstacle_config.hpp"
 #include "netsim/config/radio_config.hpp"
+#include "netsim/config/wind_config.hpp"
 
 namespace netsim {
 namespace {
@@ -77,8 +78,9 @@ std::string Schema::full_name(const Field& field) const {
 
 std::span<const Schema* const> all_schemas() {
     static constexpr std::array schemas{
-        &MobilityConfig::schema, &InterfaceConfig::schema, &MacConfig::schema,    &CsmaConfig::schema,
-        &RadioConfig::schema,    &AntennaConfig::schema,   &MediumConfig::schema, &ObstacleConfig::schema,
+        &MobilityConfig::schema, &InterfaceConfig::schema, &MacConfig::schema,
+        &CsmaConfig::schema,     &RadioConfig::schema,     &AntennaConfig::schema,
+        &MediumConfig::schema,   &ObstacleConfig::schema,  &WindConfig::schema,
     };
     return schemas;
 }

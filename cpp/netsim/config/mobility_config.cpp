@@ -6,9 +6,9 @@ namespace netsim {
 namespace {
 
 // The last name is for vehicles with an autopilot, which only scenario files support.
-constexpr std::array<std::string_view, 5> moving{mobility_type_names[0], mobility_type_names[2],
+constexpr std::array<std::string_view, 6> moving{mobility_type_names[0], mobility_type_names[2],
                                                  mobility_type_names[3], mobility_type_names[4],
-                                                 "ArdupilotMobility"};
+                                                 mobility_type_names[5], "ArdupilotMobility"};
 constexpr std::array<std::string_view, 2> in_an_area{mobility_type_names[2], mobility_type_names[4]};
 constexpr ReadBy with_motion{"mobility.typename", moving, ""};
 constexpr ReadBy with_area{"mobility.typename", in_an_area, "LinearMobility, RectangleMobility"};
@@ -27,9 +27,9 @@ constexpr Field fields[] = {
     // Scenario files have further types, so its key is not declared here.
     {"typename", &member<&MobilityConfig::type_name>, "", one_of(mobility_type_names), ""},
     {NETSIM_FIELD(MobilityConfig, speed_mps), "speed", quantity("mps").at_least(0),
-     "Speed; with MasslessMobility and autopilots until the protocol sets another one, as every mission of "
-     "the"
-     " plugin does",
+     "Speed; with MasslessMobility, QuadcopterMobility and autopilots until the protocol sets another one, "
+     "as "
+     "every mission of the plugin does",
      with_motion},
     // Shorter intervals would leave time only for telemetry; longer ones do not fit into simulated time.
     {NETSIM_FIELD(MobilityConfig, telemetry_interval_s), "telemetryInterval",
@@ -38,7 +38,12 @@ constexpr Field fields[] = {
      "comes with"
      " the first update of all positions at or after its time. Positions are updated every 10ms, or as often "
      "as the"
-     " shortest interval says; beside autopilots the interval cannot be shorter than that"},
+     " shortest interval says; beside quadcopters and autopilots the interval cannot be shorter than that"},
+    {NETSIM_FIELD(MobilityConfig, position_error_m), "positionError", quantity("m").at_least(0).at_most(1e6),
+     "Standard deviation of the error of the position that telemetry reports, on each horizontal axis; of z "
+     "it is 1.5 times as large. QuadcopterMobility flies by this position; radios are where the node is"},
+    {NETSIM_FIELD(MobilityConfig, position_error_time_s), "positionErrorTime", quantity("s").above(0),
+     "Time in which the error changes: after it, its correlation is 1/e"},
     {"initial_heading_rad", &member<&MobilityConfig::initial_orientation, &EulerAngles::heading_rad>,
      "initialHeading", angle(), "How the node is turned at the start: from the x axis to the y axis"},
     {"initial_elevation_rad", &member<&MobilityConfig::initial_orientation, &EulerAngles::elevation_rad>,

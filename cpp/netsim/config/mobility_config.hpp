@@ -12,13 +12,17 @@
 
 namespace netsim {
 
-inline constexpr std::array<std::string_view, 5> mobility_type_names{
-    "MasslessMobility", "StationaryMobility", "LinearMobility", "CircleMobility", "RectangleMobility"};
+inline constexpr std::array<std::string_view, 6> mobility_type_names{
+    "MasslessMobility", "StationaryMobility", "LinearMobility",
+    "CircleMobility",   "RectangleMobility",  "QuadcopterMobility"};
 
 struct MobilityConfig {
     std::string type_name = "MasslessMobility";  // `typename` in Python
     double speed_mps = 10;
     double telemetry_interval_s = 0.01;  // 0: no telemetry
+
+    double position_error_m = 0;
+    double position_error_time_s = 30;
 
     EulerAngles initial_orientation{};
     bool face_forward = false;

@@ -22,6 +22,7 @@ void NodeConfig::validate() const {
                   "m");
     validate_interfaces();
     mobility.validate();
+    wind.validate();
 }
 
 void NodeConfig::validate_interfaces() const {

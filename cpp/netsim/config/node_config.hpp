@@ -6,6 +6,7 @@
 
 #include "netsim/config/interface_config.hpp"
 #include "netsim/config/mobility_config.hpp"
+#include "netsim/config/wind_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/geometry/position.hpp"
 
@@ -24,6 +25,7 @@ struct NodeConfig {
     std::vector<InterfaceConfig>
         wlan;  // 1 to most_interfaces; where there are radios, each on its own channel
     MobilityConfig mobility;
+    WindConfig wind;  // where it flies
 
     // Throws ConfigError for the first field out of its range, here or in one of the parts: "radio.tx_power_w = …", if
     // there are several interfaces "wlan[1].radio.tx_power_w = …".

@@ -5,9 +5,13 @@
 // one, see docs/contributing/change-the-simulator.md.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "netsim/config/mobility_config.hpp"
+#include "netsim/config/wind_config.hpp"
+#include "netsim/mobility/gauss_markov.hpp"
 #include "netsim/mobility/trajectory.hpp"
 
 namespace netsim {
@@ -29,18 +33,40 @@ public:
     // at the start of the run and at each end.
     virtual SimTime begin_leg(SimTime) { return SimTime::never(); }
 
+    // Whether its motion is computed step by step, by fly().
+    virtual bool flies() const { return false; }
+    // Flies from `now` to the next update, `until`.
+    virtual void fly(SimTime, SimTime) {}
+
     const Trajectory& trajectory() const { return trajectory_; }
+    void set_position_error(std::unique_ptr<GaussMarkov> error) { position_error_ = std::move(error); }
+    // The position that telemetry reports. `now` does not decrease from call to call.
+    Position told_position(SimTime now) {
+        const Position here = trajectory_.position_at(now);
+        return position_error_ ? here + position_error_->at(now.seconds()) : here;
+    }
 
 protected:
     explicit Mobility(Position initial) : trajectory_(initial) {}
 
     // For models that accept no commands.
     [[noreturn]] static void refuse();
+    // Throw SimulationError for a command that no model can carry out.
+    static void check_target(Position target);
+    static void check_speed(double speed_mps);
+    // Null if there is none.
+    GaussMarkov* position_error() { return position_error_.get(); }
 
     Trajectory trajectory_;
+
+private:
+    std::unique_ptr<GaussMarkov> position_error_;
 };
 
-// config.type_name must be valid: see MobilityConfig::validate. `initial`: as for make_path.
-std::unique_ptr<Mobility> make_mobility(const MobilityConfig& config, Position initial);
+// config.type_name must be valid: see MobilityConfig::validate. `initial`: as for make_path. `seed` and
+// `node` name the random streams.
+std::unique_ptr<Mobility> make_mobility(const MobilityConfig& config, Position initial,
+                                        const WindConfig& wind = {}, std::uint64_t seed = 0,
+                                        std::uint32_t node = 0);
 
 }  // namespace netsim

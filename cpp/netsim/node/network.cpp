@@ -44,6 +44,9 @@ Node& Network::add_node(const NodeConfig& config) {
     if (telemetry_interval > SimTime{}) {
         add_to_telemetry_clock(node, telemetry_interval);
     }
+    if (node.flies()) {
+        flight_clock_.add(node);
+    }
     return node;
 }
 
@@ -259,6 +262,7 @@ void Network::initialize() {
     for (TelemetryClock& clock : telemetry_clocks_) {
         clock.start();
     }
+    flight_clock_.start();
 }
 
 void Network::schedule(SimTime time, std::function<void()> call) {

@@ -21,6 +21,7 @@
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/unit_disk_interface.hpp"
 #include "netsim/medium/medium.hpp"
+#include "netsim/node/flight_clock.hpp"
 #include "netsim/node/network_context.hpp"
 #include "netsim/node/node.hpp"
 #include "netsim/node/radio_capture.hpp"
@@ -134,6 +135,7 @@ private:
     std::unique_ptr<ReplayRecorder> recorder_;
     std::deque<Node> nodes_;
     std::deque<TelemetryClock> telemetry_clocks_;  // one for each interval
+    FlightClock flight_clock_{simulator_};
     ScheduledCalls scheduled_calls_{simulator_};
     bool initialized_ = false;
     bool finished_ = false;

@@ -17,7 +17,8 @@ constexpr std::uint64_t timer_word = 0x74696D6572;  // "timer"; marks timers in 
 
 Node::Node(NetworkContext& context, const NodeConfig& config, NodeId id, std::uint64_t seed)
     : context_(context),
-      mobility_(make_mobility(config.mobility, config.initial_position)),
+      mobility_(make_mobility(config.mobility, config.initial_position, config.wind, seed,
+                              static_cast<std::uint32_t>(id))),
       id_(id),
       name_(config.name),
       attitude_(config.mobility),
@@ -86,6 +87,13 @@ void Node::begin_path() {
         context_.recorder->course_changed(id_);
     }
     context_.simulator.schedule_at(end, [this] { begin_path(); });
+}
+
+void Node::fly(SimTime until) {
+    mobility_->fly(now(), until);
+    if (context_.recorder != nullptr) {
+        context_.recorder->course_changed(id_);
+    }
 }
 
 void Node::finish() {
@@ -197,7 +205,8 @@ void Node::report_position() {
     if (observed_) {
         on_telemetry_(position());
     }
-    call_protocol("handle_telemetry", [this](Protocol& protocol) { protocol.handle_telemetry(position()); });
+    call_protocol("handle_telemetry",
+                  [this](Protocol& protocol) { protocol.handle_telemetry(mobility_->told_position(now())); });
 }
 
 }  // namespace netsim

@@ -51,6 +51,10 @@ public:
     void initialize();
     // Starts the motion, if the mobility follows a given path.
     void begin_path();
+    // Whether it flies step by step, by fly().
+    bool flies() const { return mobility_->flies(); }
+    // Flies from now to the next update.
+    void fly(SimTime until);
     void report_position();
     void finish();
 

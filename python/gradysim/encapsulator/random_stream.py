@@ -32,11 +32,15 @@ class Purpose(IntEnum):
     Attributes:
         PROTOCOL: `IProvider.random`.
         PARAMETER: Values that an .ini file draws. The path of the parameter takes the place of the node.
+        GUSTS: Gusts of wind at a vehicle.
+        POSITION_ERROR: Errors of the position that a node knows.
         COMMUNICATION: Lost messages of prototype mode; of the receiver.
     """
 
     PROTOCOL = 3
     PARAMETER = 7
+    GUSTS = 8
+    POSITION_ERROR = 9
     COMMUNICATION = 101
 
 

@@ -7,6 +7,7 @@ error of the engine's validation is reported at its line of the .ini file.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
@@ -23,6 +24,8 @@ from gradysim.sitl.scenario_autopilots import check_autopilots
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
+
+NO_SETTINGS: Mapping[str, Setting] = MappingProxyType({})
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
@@ -41,7 +44,7 @@ def _built(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     with errors_at(settings_by_target("medium", scenario.medium)):
         network: Network = load_netsim().Network(config, scenario.seed)
     powers = PowersForRanges(config)
-    nodes = tuple(add_node(network, spec, powers, scenario.medium) for spec in scenario.nodes)
+    nodes = tuple(add_node(network, spec, powers, scenario.medium, scenario.wind) for spec in scenario.nodes)
     for spec, node in zip(scenario.nodes, nodes, strict=True):
         if is_native(spec):
             _check_clock(spec)
@@ -104,10 +107,15 @@ def check_scenario(scenario: Scenario) -> None:
 
 
 def add_node(
-    network: "Network", spec: NodeSpec, powers: PowersForRanges, medium: Mapping[str, Setting]
+    network: "Network",
+    spec: NodeSpec,
+    powers: PowersForRanges,
+    medium: Mapping[str, Setting],
+    wind: Mapping[str, Setting] = NO_SETTINGS,
 ) -> "Node":
     """Add one node to `network`. Raise the errors that depend on the whole configuration."""
     config = node_config(spec)
+    set_fields(config.wind, wind)
     with node_errors_at(spec, medium):
         powers.set_powers(config, spec)
         return network.add_node(config)

@@ -35,7 +35,7 @@ class EngineRecorder:
         self._recorded = recorded
         self._recorder = network.record(sorted(self._recorded))
         for node in scenario.nodes:
-            if node.autopilot is not None:
+            if node.autopilot is not None or node.is_quadcopter:
                 self._recorder.sample_path(node.id)
 
     def variable_listener(self, node_id: int) -> VariableListener | None:

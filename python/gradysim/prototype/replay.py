@@ -5,7 +5,6 @@ from typing import Any, Final
 
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.mobility import MobilityCommand, MobilityCommandType
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.position import Position
 from gradysim.replay.recorder import TableRecorder
 from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
@@ -39,14 +38,13 @@ class PrototypeRecorder(TableRecorder):
         """Record the paths of nodes, from their commands; others at intervals."""
         for spec in scenario.nodes:
             self.path(spec.id, spec.initial_position, spec.initial_position, 0)
-        flown = {spec.id for spec in scenario.nodes if spec.autopilot is not None}
         handle_command = mobility.handle_command
 
         def record_and_handle(command: MobilityCommand, node: Node[Any]) -> None:
             handle_command(command, node)
             self.close_if_long()
             self.event(node.id, _COMMAND, _text_of(command))
-            if node.id not in flown and node.id in mobility.targets:
+            if node.id in mobility.targets:
                 self.path(node.id, node.position, mobility.targets[node.id], mobility.speeds[node.id])
 
         for node_id, path in mobility.paths.items():
@@ -65,19 +63,13 @@ class PrototypeRecorder(TableRecorder):
 
         return position
 
-    def watch_node(self, node: Node[Any], *, is_flown: bool) -> None:
+    def watch_node(self, node: Node[Any]) -> None:
         """Record the callbacks of a node's protocol; call it before the protocol is made."""
         encapsulator = node.protocol_encapsulator
-        for name, cause in (("initialize", "initialize"), ("handle_packet", "packet"), ("finish", "finish")):
+        for name in ("initialize", "handle_packet", "handle_telemetry", "finish"):
+            cause = name.removeprefix("handle_")
             precede(encapsulator, name, lambda *_, cause=cause: self._begin(cause))
         precede(encapsulator, "handle_timer", lambda timer: self._timer_due(node.id, timer))
-
-        def telemetry_comes(telemetry: Telemetry) -> None:
-            self._begin("telemetry")
-            if is_flown:
-                self.sampled(node.id, telemetry.current_position, _SAMPLING_S)
-
-        precede(encapsulator, "handle_telemetry", telemetry_comes)
 
     def _begin(self, cause: str) -> None:
         self.close_if_long()

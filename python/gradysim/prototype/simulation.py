@@ -5,13 +5,14 @@ from typing import Any
 
 from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
+from gradysim.motion.wind import Wind
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.protocol.interface import IProvider
 from gradysim.prototype.replay import PrototypeRecorder, precede
 from gradysim.results.files import run_name
 from gradysim.results.recorder import NodeRecorder
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.keys import MASSLESS, STATIONARY
+from gradysim.scenario.keys import MASSLESS, QUADCOPTER, STATIONARY
 from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_integrated
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
@@ -21,6 +22,7 @@ from gradysim.simulator.handler.communication import CommunicationHandler, Commu
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.mobility.massless import IdleSkippingMobilityHandler
+from gradysim.simulator.handler.mobility.quadcopter import QuadcopterMobilityHandler
 from gradysim.simulator.handler.registry import handlers_by_label
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
@@ -78,7 +80,7 @@ def build_simulation(
         provider.has_telemetry = scenario.nodes[node.id].has_telemetry
         let_clock_drift(provider, scenario.nodes[node.id].drift_rate)
         if replay is not None:
-            replay.watch_node(node, is_flown=scenario.nodes[node.id].autopilot is not None)
+            replay.watch_node(node)
         record_node(node, recorded.get(node.id), replay)
 
     simulator = builder.prepare_nodes(prepare).build()
@@ -113,11 +115,16 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     """
     configuration = MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
     flights = flights_of(scenario)
-    if flights is None:
+    quadcopters = [spec.id for spec in scenario.nodes if spec.is_quadcopter]
+    wind = Wind(**{field: float(setting.value) for field, setting in scenario.wind.items()})
+    mobility: MasslessMobilityHandler
+    if flights is not None:  # autopilots and quadcopters fly in steps of 10 ms, in both modes
+        mobility = AutopilotMobilityHandler(configuration, flights, quadcopters, wind)
+    elif quadcopters:
+        mobility = QuadcopterMobilityHandler(configuration, quadcopters, wind)
+    else:
         configuration.update_rate = update_rate_s(scenario.nodes)
         mobility = (IdleSkippingMobilityHandler if skips_idle else MasslessMobilityHandler)(configuration)
-    else:  # autopilots fly in steps of 10 ms, in both modes
-        mobility = AutopilotMobilityHandler(configuration, flights)
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility
@@ -146,12 +153,17 @@ def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> Non
     typename = spec.mobility.get("typename")
     stationary = typename is not None and typename.value == STATIONARY
     path = path_of(spec.mobility, spec.initial_position)
-    if typename is not None and path is None and typename.value not in (MASSLESS, STATIONARY):
-        expected = f'expected "{MASSLESS}" or "{STATIONARY}"'
+    if typename is not None and path is None and typename.value not in (MASSLESS, QUADCOPTER, STATIONARY):
+        expected = f'expected "{MASSLESS}", "{QUADCOPTER}" or "{STATIONARY}"'
         raise ConfigError.at(typename.source, f"prototype mode has no {typename.value}; {expected}")
     numbers = {"telemetry_interval": UPDATE_S}  # the default, for any interval of other nodes
     mobility.configure_node(spec.id, stationary=stationary, path=path, **numbers)
-    for argument, field in (("speed", "speed_mps"), ("telemetry_interval", "telemetry_interval_s")):
+    for argument, field in (
+        ("speed", "speed_mps"),
+        ("telemetry_interval", "telemetry_interval_s"),
+        ("position_error", "position_error_m"),
+        ("position_error_time", "position_error_time_s"),
+    ):
         if (setting := spec.mobility.get(field)) is not None:
             numbers[argument] = float(setting.value)
             try:
@@ -188,5 +200,5 @@ def record_node(
         precede(
             node.protocol_encapsulator,
             "handle_telemetry",
-            lambda telemetry: recorder.position_told(now_ps(), *telemetry.current_position),
+            lambda _: recorder.position_told(now_ps(), *node.position),
         )

@@ -73,6 +73,8 @@ def has_radios(medium_typename: object) -> bool:
 LARGEST_DRIFT_PPM = 100_000.0
 
 MASSLESS = "MasslessMobility"
+QUADCOPTER = "QuadcopterMobility"
+"""A vehicle with inertia, and a built-in controller."""
 STATIONARY = "StationaryMobility"
 STATIC_GRID = "StaticGridMobility"
 """A stationary node whose initial position is in a grid."""
@@ -142,6 +144,7 @@ MOBILITY_KEYS: tuple[Key, ...] = (
         "typename",
         choice(
             MASSLESS,
+            QUADCOPTER,
             STATIONARY,
             STATIC_GRID,
             LINEAR,
@@ -152,7 +155,8 @@ MOBILITY_KEYS: tuple[Key, ...] = (
             " (docs/how-to/fly-a-mission.md, docs/how-to/move-at-random.md)",
         ),
         "How the node moves. MasslessMobility: as its protocol says (missions: docs/how-to/fly-a-mission.md, "
-        "random waypoints: docs/how-to/move-at-random.md). StationaryMobility: not at all. "
+        "random waypoints: docs/how-to/move-at-random.md). QuadcopterMobility: the same with inertia "
+        "(docs/how-to/fly-with-inertia.md). StationaryMobility: not at all. "
         "StaticGridMobility: not at all, and it starts in a grid. LinearMobility, CircleMobility and "
         "RectangleMobility: on a given path (docs/how-to/move-on-a-given-path.md). ArdupilotMobility: as its "
         "protocol says, flown by a real autopilot (docs/how-to/fly-with-ardupilot.md)",
@@ -422,6 +426,7 @@ NETWORK_KEYS: tuple[Key, ...] = (
     *OBSTACLE_KEYS,
     *COMMUNICATION_MEDIUM_KEYS,
     *COORDINATE_SYSTEM_KEYS,
+    *_ENGINE["wind"],
 )
 """Keys below the network."""
 

@@ -170,6 +170,7 @@ def read_network(
     )
     nodes = build_nodes(lookup, groups, protocols, counts, settings, errors)
     medium = read_struct("medium", found, settings, path_of, errors)
+    wind = read_struct("wind", found, settings, path_of, errors)
     obstacles = read_obstacles(obstacles_below, lookup, settings, errors)
     obstacle_files: dict[Path, tuple[ObstacleSpec, ...]] = {}
     with errors.collecting():
@@ -185,6 +186,7 @@ def read_network(
         {
             "nodes": nodes,
             "medium": medium,
+            "wind": wind,
             "communication_medium": CommunicationMediumSpec(
                 **{field: float(setting.value) for field, setting in communication.items()}
             ),

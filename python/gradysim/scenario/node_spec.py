@@ -14,7 +14,7 @@ from gradysim.protocol.defaults import (
 )
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean
-from gradysim.scenario.keys import ARDUPILOT
+from gradysim.scenario.keys import ARDUPILOT, QUADCOPTER
 from gradysim.scenario.lookup import Setting
 from gradysim.scenario.parameters import can_be_set, parameters_of
 from gradysim.scenario.protocol_modules import Origin, origin_of
@@ -186,6 +186,12 @@ class NodeSpec:
         """How much faster than simulated time its clock runs, as a ratio: 1e-6 for 1 ppm."""
         drift = self.node.get("drift_rate_ppm")
         return 0.0 if drift is None else float(drift.value) * 1e-6
+
+    @property
+    def is_quadcopter(self) -> bool:
+        """Whether it is a quadcopter with the built-in controller."""
+        typename = self.mobility.get("typename")
+        return typename is not None and typename.value == QUADCOPTER
 
     @property
     def has_telemetry(self) -> bool:

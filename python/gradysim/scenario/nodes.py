@@ -20,6 +20,7 @@ from gradysim.scenario.keys import (
     PROTOCOL_CLASS,
     PROTOCOL_KEYS,
     PROTOCOL_TYPENAME,
+    QUADCOPTER,
     STATIC_GRID,
     STATIONARY,
     WLAN_KEYS,
@@ -248,6 +249,10 @@ class _NodeBuilder:
         with self._errors.collecting():
             if path := path_of(mobility, place):
                 return path(0)
+            typename = mobility.get("typename")
+            if typename is not None and typename.value == QUADCOPTER and place[2] < 0:
+                text = f"the node starts below the ground, at z = {place[2]:g}m"
+                raise ConfigError.at(typename.source, text, expected="at least 0m")
         return place
 
     def _make(

@@ -1,14 +1,15 @@
-"""Mobility handler for massless vehicles and vehicles flown by autopilots."""
+"""Mobility handler for massless vehicles, quadcopters, and vehicles flown by autopilots."""
 
 import weakref
+from collections.abc import Collection
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from gradysim.motion.wind import Wind
 from gradysim.protocol.messages.mobility import MobilityCommand
-from gradysim.simulator.event import EventLoop
-from gradysim.simulator.handler.mobility.massless import (
-    MasslessMobilityConfiguration,
-    MasslessMobilityHandler,
-)
+from gradysim.protocol.position import Position
+from gradysim.simulator.handler.mobility.massless import MasslessMobilityConfiguration
+from gradysim.simulator.handler.mobility.quadcopter import QuadcopterMobilityHandler
 from gradysim.simulator.node import Node
 from gradysim.sitl.flight_orders import give_order
 
@@ -16,27 +17,29 @@ if TYPE_CHECKING:
     from gradysim.sitl.flights import Flights
 
 
-class AutopilotMobilityHandler(MasslessMobilityHandler):
+class AutopilotMobilityHandler(QuadcopterMobilityHandler):
     """Moves nodes with an autopilot to the position of its vehicle at each update.
 
-    An autopilot is always one update ahead: after the telemetry of an update it flies to the next one. So a
-    command takes effect at the first update after it, or at once if it is sent by `handle_telemetry`.
+    An autopilot is always one update ahead, as quadcopters are.
     """
 
-    def __init__(self, configuration: MasslessMobilityConfiguration, flights: "Flights") -> None:
+    def __init__(
+        self,
+        configuration: MasslessMobilityConfiguration,
+        flights: "Flights",
+        quadcopters: Collection[int] = (),
+        wind: Wind | None = None,
+    ) -> None:
         """Create the handler. `flights` start with `take_off` and end with the simulation."""
-        super().__init__(configuration)
+        super().__init__(configuration, quadcopters, wind)
         self._flights = flights
+        for node_id in flights.ids:
+            self.paths[node_id] = partial(_position_of, flights, node_id)
         weakref.finalize(self, flights.close)  # If the simulation is not finished.
 
     def take_off(self) -> None:
         """Start the autopilots. Raise SitlError if one does not start or a step of its flight fails."""
         self._flights.begin()
-
-    def initialize(self) -> None:
-        """Schedule the first update, after `take_off`."""
-        super().initialize()
-        self._schedule_flight()
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
         """Carry out a command.
@@ -54,21 +57,10 @@ class AutopilotMobilityHandler(MasslessMobilityHandler):
         super().finalize()
         self._flights.close()
 
-    def _move(self) -> bool:
-        super()._move()
-        for identifier in self._flights.ids:
-            self.nodes[identifier].position = self._flights.position(identifier)
-        return True
-
-    def _update(self) -> None:
-        super()._update()
-        self._schedule_flight()
-
-    def _schedule_flight(self) -> None:
-        """Fly to the next update after all events of this instant."""
-        event_loop: EventLoop | None = self._event_loop
-        assert event_loop is not None
-        event_loop.schedule_event(event_loop.current_time, self._fly_on, "ArduPilot")
-
     def _fly_on(self) -> None:
+        super()._fly_on()
         self._flights.advance_to(self._times.time_of(self._updates))
+
+
+def _position_of(flights: "Flights", node_id: int, _time_s: float) -> Position:
+    return flights.position(node_id)

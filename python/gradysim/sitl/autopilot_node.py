@@ -5,11 +5,11 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from gradysim.motion.quadcopter import Vector
 from gradysim.protocol.defaults import AUTOPILOT_USER, SPEED_MPS
 from gradysim.protocol.position import Position
 from gradysim.sitl import SitlError
 from gradysim.sitl.frame import home_of
-from gradysim.sitl.quadcopter import Vector
 
 _SEA_LEVEL_DEGC, _LAPSE_DEGCPM = 15.0, 0.0065
 """Standard atmosphere (ISO 2533) of ArduPilot's simulated barometers."""

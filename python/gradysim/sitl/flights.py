@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Collection, Coroutine, Iterable, Mapping
 from typing import Any
 
+from gradysim.motion.quadcopter import HOVER_THRUST, THRUST_EXPO, Quadcopter
 from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.position import Position
 from gradysim.sitl.autopilot_node import AutopilotNode, check_start, ground_temperature, wind_mps
@@ -15,7 +16,6 @@ from gradysim.sitl.frame import autopilots_place, home_of
 from gradysim.sitl.lock_step import RATE_HZ, LockStepAutopilot, LockStepGroup, VehicleClockLoop
 from gradysim.sitl.mavlink import MavlinkLink, Message
 from gradysim.sitl.pilot import Pilot
-from gradysim.sitl.quadcopter import HOVER_THRUST, THRUST_EXPO, Quadcopter
 from gradysim.sitl.vehicle import Vehicle, prepare
 
 _POSITIONS_HZ = 5.0

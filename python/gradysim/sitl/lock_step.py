@@ -15,10 +15,10 @@ from collections.abc import Sequence
 from typing import Any, NoReturn, cast
 
 from gradysim.encapsulator.nested_loop import outer_loop_stands
+from gradysim.motion.quadcopter import Quadcopter
 from gradysim.sitl import SitlError
 from gradysim.sitl.mavlink import MavlinkLink
 from gradysim.sitl.process import AutopilotProcess
-from gradysim.sitl.quadcopter import Quadcopter
 
 _logger = logging.getLogger(__name__)
 

@@ -6,7 +6,7 @@ import struct
 
 from gradysim.sitl.lock_step import LockStepAutopilot
 from gradysim.sitl.mavlink import MavlinkLink
-from gradysim.sitl.quadcopter import Quadcopter
+from gradysim.motion.quadcopter import Quadcopter
 
 SERVOS = "<HHI16H"
 IDLE = [1000] * 16

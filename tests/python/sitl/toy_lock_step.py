@@ -9,7 +9,7 @@ import time
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from toy_vehicle import Copter
 
-from gradysim.sitl import quadcopter as body
+from gradysim.motion import quadcopter as body
 
 
 class LockStepCopter(Copter):

@@ -3,9 +3,12 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, cast
 
 from gradysim.encapsulator.validation import geo_target, three_numbers, wrong_mobility
+from gradysim.motion.gauss_markov import GaussMarkov
+from gradysim.motion.position_error import POSITION_ERROR_TIME_S, position_error
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import SPEED_MPS, UPDATE_S
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
@@ -47,6 +50,8 @@ class _NodeSettings:
     speed_mps: float | None = None
     telemetry_interval_s: float | None = None
     refuses_commands: bool = False
+    position_error_m: float = 0.0
+    position_error_time_s: float = POSITION_ERROR_TIME_S
 
 
 class MasslessMobilityHandler(INodeHandler):
@@ -57,6 +62,7 @@ class MasslessMobilityHandler(INodeHandler):
         targets: Targets (x, y, z) in meters by id; they stay after arrival.
         speeds: m/s by id.
         paths: Given paths by id: functions from simulated seconds to positions (x, y, z) in meters.
+        position_errors: Errors of the positions that telemetry reports, by id.
     """
 
     def __init__(self, configuration: MasslessMobilityConfiguration | None = None) -> None:
@@ -70,6 +76,7 @@ class MasslessMobilityHandler(INodeHandler):
         self.targets: dict[int, Position] = {}
         self.speeds: dict[int, float] = {}
         self.paths: dict[int, Callable[[float], Position]] = {}
+        self.position_errors: dict[int, GaussMarkov] = {}
         self._telemetry: dict[float, TelemetryGroup] = {}
 
     @staticmethod
@@ -85,6 +92,8 @@ class MasslessMobilityHandler(INodeHandler):
         telemetry_interval: float | None = None,
         stationary: bool = False,
         path: Callable[[float], Position] | None = None,
+        position_error: float = 0.0,
+        position_error_time: float = POSITION_ERROR_TIME_S,
     ) -> None:
         """Set how one node moves, before it is registered. It holds in every simulation of this handler.
 
@@ -96,6 +105,9 @@ class MasslessMobilityHandler(INodeHandler):
             stationary: The node refuses every command.
             path: The position (x, y, z) in meters by the simulated time in seconds. It holds at each update,
                 and the node refuses every command.
+            position_error: Standard deviation of the error of reported positions; m on each horizontal axis,
+                >= 0. That of z is 1.5 times as large.
+            position_error_time: Time in which this error changes, its correlation time; s, > 0.
 
         Raises:
             ValueError: A number is outside its range.
@@ -105,6 +117,8 @@ class MasslessMobilityHandler(INodeHandler):
             raise MasslessMobilityException(f"node {node_id} is registered already: configure it before")
         if speed is not None:
             checked_number(f"speed of node {node_id}", speed, 0, unit="m/s")
+        checked_number(f"position_error of node {node_id}", position_error, 0, unit="m")
+        checked_number(f"position_error_time of node {node_id}", position_error_time, 0, above=True, unit="s")
         rate = self._configuration.update_rate
         if telemetry_interval is not None and telemetry_interval != 0:
             checked_number(f"telemetry_interval of node {node_id}", telemetry_interval, 0, unit="s")
@@ -113,7 +127,9 @@ class MasslessMobilityHandler(INodeHandler):
                     f"telemetry_interval of node {node_id} is {telemetry_interval!r} s: expected 0 or at "
                     f"least the update_rate of the positions, {rate!r} s"
                 )
-        self._settings[node_id] = _NodeSettings(speed, telemetry_interval, stationary or path is not None)
+        self._settings[node_id] = _NodeSettings(
+            speed, telemetry_interval, stationary or path is not None, position_error, position_error_time
+        )
         if path is not None:
             self.paths[node_id] = path
 
@@ -123,6 +139,7 @@ class MasslessMobilityHandler(INodeHandler):
             self.nodes = {}
             self.targets = {}
             self.speeds = {}
+            self.position_errors = {}
             self._telemetry = {}
         self._event_loop = event_loop
         self._times = UpdateTimes(self._configuration.update_rate, event_loop.current_time)
@@ -139,12 +156,17 @@ class MasslessMobilityHandler(INodeHandler):
         self.speeds[node.id] = (
             configuration.default_speed if settings.speed_mps is None else settings.speed_mps
         )
+        if settings.position_error_m > 0:
+            self.position_errors[node.id] = position_error(
+                node.seed, node.id, settings.position_error_m, settings.position_error_time_s
+            )
         interval_s = settings.telemetry_interval_s
         if interval_s is None:
             interval_s = configuration.update_rate
         if interval_s != 0:
             interval = _in_updates(interval_s, configuration.update_rate)
-            self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node)
+            told = partial(self._told_position, node) if node.id in self.position_errors else None
+            self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node, told)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
         """Carry out GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.
@@ -167,6 +189,12 @@ class MasslessMobilityHandler(INodeHandler):
             self.speeds[node.id] = float(cast("float", command.param_1))
         else:
             self.targets[node.id] = cast("Position", three_numbers(command))
+
+    def _told_position(self, node: Node[Any]) -> Position:
+        assert self._event_loop is not None
+        x, y, z = node.position
+        dx, dy, dz = self.position_errors[node.id].at(self._event_loop.current_time)
+        return (x + dx, y + dy, z + dz)
 
     def _schedule_update(self, event_loop: EventLoop) -> None:
         self._updates += 1

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position
 from gradysim.simulator.event import ScheduledEvent
 from gradysim.simulator.log import context_of
 from gradysim.simulator.node import Node
@@ -58,9 +59,9 @@ class TelemetryGroup:
         self.due = math.ceil(interval_updates)
         self.deliveries: list[ScheduledEvent] = []
 
-    def add(self, node: Node[Any]) -> None:
-        """Add a node."""
-        self.deliveries.append((_delivery(node), context_of(node, "handle_telemetry")))
+    def add(self, node: Node[Any], told_position: Callable[[], Position] | None = None) -> None:
+        """Add a node. `told_position` returns what it learns; None for its position."""
+        self.deliveries.append((_delivery(node, told_position), context_of(node, "handle_telemetry")))
 
     def is_due(self, update: int) -> bool:
         """Return whether telemetry comes with this update; the first one is 1. Call it for each in order.
@@ -75,8 +76,12 @@ class TelemetryGroup:
         return True
 
 
-def _delivery(node: Node[Any]) -> Callable[[], None]:
+def _delivery(node: Node[Any], told_position: Callable[[], Position] | None) -> Callable[[], None]:
     def deliver() -> None:
         node.protocol_encapsulator.handle_telemetry(Telemetry(node.position))
 
-    return deliver
+    def deliver_told() -> None:
+        assert told_position is not None
+        node.protocol_encapsulator.handle_telemetry(Telemetry(told_position()))
+
+    return deliver if told_position is None else deliver_told

@@ -5,8 +5,8 @@ import math
 import pytest
 from hypothesis import given, strategies
 
-from gradysim.sitl import quadcopter
-from gradysim.sitl.quadcopter import GRAVITY_MPS2, Quadcopter
+from gradysim.motion import quadcopter
+from gradysim.motion.quadcopter import GRAVITY_MPS2, Quadcopter
 
 STEP_S = 1 / 400
 HIGH_M = -100.0

@@ -36,8 +36,12 @@ ROTATION_DRAG_NMS = 0.05
 FRICTION = 0.5
 """Friction coefficient of the landing gear on the ground."""
 
-_MAX_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
-_LEVER_M = ARM_M * math.sqrt(0.5)
+MAX_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
+"""Of one motor."""
+
+LEVER_M = ARM_M * math.sqrt(0.5)
+_IX, _IY, _IZ = INERTIA_KGM2
+_DRAG_PER_S = DRAG_KGPS / MASS_KG
 
 
 class Quadcopter:
@@ -48,12 +52,13 @@ class Quadcopter:
         velocity_mps: Velocity, in the same frame.
         attitude: Quaternion (w, x, y, z) from the vehicle's frame to that of the world.
         rates_radps: Rotation rates about its own axes: roll, pitch, yaw.
+        wind_mps: Velocity of the air, in the same frame.
         specific_force_mps2: Reading of its accelerometer, along its own axes. At rest (0, 0, -g).
     """
 
     def __init__(self, wind_mps: Vector = (0.0, 0.0, 0.0)) -> None:
         """Create a vehicle. `wind_mps` is the velocity of the air: North, East and down."""
-        self._wind_mps = wind_mps
+        self.wind_mps = wind_mps
         self.position_m: Vector = (0.0, 0.0, 0.0)
         self.velocity_mps: Vector = (0.0, 0.0, 0.0)
         self.attitude: Quaternion = (1.0, 0.0, 0.0, 0.0)
@@ -61,29 +66,38 @@ class Quadcopter:
         self.specific_force_mps2: Vector = (0.0, 0.0, -GRAVITY_MPS2)
 
     def step(self, throttles: Sequence[float], duration_s: float) -> None:
-        """Integrate one step of a few milliseconds at most.
+        """Integrate one step of a few milliseconds at most, and note the reading of the accelerometer.
 
         The throttles of the four motors, 0 to 1, are in ArduPilot's order: front right, rear left
         (counterclockwise, seen from above), front left, rear right (clockwise).
         """
-        front_right, rear_left, front_left, rear_right = map(_thrust_n, throttles)
-        torque = (
-            _LEVER_M * (rear_left + front_left - front_right - rear_right),
-            _LEVER_M * (front_right + front_left - rear_left - rear_right),
-            TORQUE_M * (front_right + rear_left - front_left - rear_right),
-        )
-        self._turn(torque, duration_s)
-        self._move(front_right + rear_left + front_left + rear_right, duration_s)
+        acceleration = self.push(*map(_thrust_n, throttles), duration_s)
+        if acceleration is not None:
+            north, east, sink = acceleration
+            forward, right, down = self._axes()
+            self.specific_force_mps2 = (
+                forward[0] * north + forward[1] * east + forward[2] * sink,
+                right[0] * north + right[1] * east + right[2] * sink,
+                down[0] * north + down[1] * east + down[2] * sink,
+            )
 
-    def _turn(self, torque_nm: Vector, duration_s: float) -> None:
-        """Update the rates by Euler's equations and the attitude by the new rates."""
+    def push(
+        self, front_right: float, rear_left: float, front_left: float, rear_right: float, duration_s: float
+    ) -> Vector | None:
+        """Integrate one step with these thrusts of the four motors, in newtons.
+
+        Return the acceleration without gravity, along the axes of the world; None on the ground. All of the
+        step is in one function, because it takes most of the time of a flight.
+        """
+        # Euler's equations for the rates; then the attitude by the new rates.
         p, q, r = self.rates_radps
-        ix, iy, iz = INERTIA_KGM2
-        roll, pitch, yaw = torque_nm
+        roll = LEVER_M * (rear_left + front_left - front_right - rear_right)
+        pitch = LEVER_M * (front_right + front_left - rear_left - rear_right)
+        yaw = TORQUE_M * (front_right + rear_left - front_left - rear_right)
         p, q, r = (
-            p + duration_s * (roll - ROTATION_DRAG_NMS * p - (iz - iy) * q * r) / ix,
-            q + duration_s * (pitch - ROTATION_DRAG_NMS * q - (ix - iz) * r * p) / iy,
-            r + duration_s * (yaw - ROTATION_DRAG_NMS * r - (iy - ix) * p * q) / iz,
+            p + duration_s * (roll - ROTATION_DRAG_NMS * p - (_IZ - _IY) * q * r) / _IX,
+            q + duration_s * (pitch - ROTATION_DRAG_NMS * q - (_IX - _IZ) * r * p) / _IY,
+            r + duration_s * (yaw - ROTATION_DRAG_NMS * r - (_IY - _IX) * p * q) / _IZ,
         )
         w, x, y, z = self.attitude
         half = duration_s / 2
@@ -94,32 +108,26 @@ class Quadcopter:
             z + half * (w * r + x * q - y * p),
         )
         length = math.sqrt(w * w + x * x + y * y + z * z)
+        w, x, y, z = w / length, x / length, y / length, z / length
         self.rates_radps = (p, q, r)
-        self.attitude = (w / length, x / length, y / length, z / length)
-
-    def _move(self, thrust_n: float, duration_s: float) -> None:
-        """Update the velocity by Newton's law and the position by the new velocity, with the ground."""
-        forward, right, down = self._axes()
+        self.attitude = (w, x, y, z)
+        # Newton's law for the velocity; then the position by the new velocity.
         north, east, sink = self.velocity_mps
-        wind = self._wind_mps
-        lift, drag = -thrust_n / MASS_KG, DRAG_KGPS / MASS_KG
-        a_north = down[0] * lift - drag * (north - wind[0])
-        a_east = down[1] * lift - drag * (east - wind[1])
-        a_down = down[2] * lift - drag * (sink - wind[2])
+        wind_north, wind_east, wind_down = self.wind_mps
+        lift = -(front_right + rear_left + front_left + rear_right) / MASS_KG
+        a_north = 2 * (x * z + w * y) * lift - _DRAG_PER_S * (north - wind_north)
+        a_east = 2 * (y * z - w * x) * lift - _DRAG_PER_S * (east - wind_east)
+        a_down = (1 - 2 * (x * x + y * y)) * lift - _DRAG_PER_S * (sink - wind_down)
         north += a_north * duration_s
         east += a_east * duration_s
         sink += (a_down + GRAVITY_MPS2) * duration_s
         x, y, z = self.position_m
         if z + sink * duration_s >= 0 and sink >= 0:
             self._slide(north, east, duration_s)
-            return
+            return None
         self.velocity_mps = (north, east, sink)
         self.position_m = (x + north * duration_s, y + east * duration_s, z + sink * duration_s)
-        self.specific_force_mps2 = (
-            forward[0] * a_north + forward[1] * a_east + forward[2] * a_down,
-            right[0] * a_north + right[1] * a_east + right[2] * a_down,
-            down[0] * a_north + down[1] * a_east + down[2] * a_down,
-        )
+        return (a_north, a_east, a_down)
 
     def _slide(self, north: float, east: float, duration_s: float) -> None:
         """Be on the ground, level, with the heading that it had; lose speed by friction, or stand."""
@@ -152,4 +160,4 @@ class Quadcopter:
 
 
 def _thrust_n(throttle: float) -> float:
-    return _MAX_THRUST_N * throttle * ((1 - THRUST_EXPO) + THRUST_EXPO * throttle)
+    return MAX_THRUST_N * throttle * ((1 - THRUST_EXPO) + THRUST_EXPO * throttle)

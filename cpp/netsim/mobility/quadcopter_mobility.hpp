@@ -1,0 +1,26 @@
+// A quadcopter that flies to the targets of its protocol: it has to speed up, to tilt and to brake.
+// One leg of its trajectory is one update; see Network's FlightClock.
+#pragma once
+
+#include <utility>
+
+#include "netsim/mobility/mobility.hpp"
+#include "netsim/mobility/quadcopter.hpp"
+
+namespace netsim {
+
+class QuadcopterMobility final : public Mobility {
+public:
+    QuadcopterMobility(Position initial, double speed_mps, Wind wind)
+        : Mobility(initial), vehicle_(initial, speed_mps, std::move(wind)) {}
+
+    void go_to(SimTime now, Position target) override;
+    void set_speed(SimTime now, double speed_mps) override;
+    bool flies() const override { return true; }
+    void fly(SimTime now, SimTime until) override;
+
+private:
+    Quadcopter vehicle_;
+};
+
+}  // namespace netsim
