@@ -25,7 +25,7 @@ from gradysim.sitl.scenario_autopilots import check_autopilots
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
 
-NO_SETTINGS: Mapping[str, Setting] = MappingProxyType({})
+STILL_AIR: Mapping[str, float] = MappingProxyType({})
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
@@ -111,11 +111,12 @@ def add_node(
     spec: NodeSpec,
     powers: PowersForRanges,
     medium: Mapping[str, Setting],
-    wind: Mapping[str, Setting] = NO_SETTINGS,
+    wind: Mapping[str, float] = STILL_AIR,
 ) -> "Node":
     """Add one node to `network`. Raise the errors that depend on the whole configuration."""
     config = node_config(spec)
-    set_fields(config.wind, wind)
+    for field, value in wind.items():
+        setattr(config.wind, field, value)
     with node_errors_at(spec, medium):
         powers.set_powers(config, spec)
         return network.add_node(config)

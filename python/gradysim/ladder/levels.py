@@ -6,9 +6,11 @@ share positions, traffic and all draws that both of them make.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import groupby
 
 from gradysim.scenario.ini import Section
+from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
 UNIT_DISK = "UnitDiskRadioMedium"
@@ -54,8 +56,22 @@ def _has_antennas(scenario: Scenario) -> bool:
     return any(wlan.antenna for node in scenario.nodes for wlan in node.wlan)
 
 
-def _has_autopilots(scenario: Scenario) -> bool:
-    return any(node.autopilot is not None for node in scenario.nodes)
+def _has_inertia(node: NodeSpec) -> bool:
+    return node.is_quadcopter or _has_autopilot(node)
+
+
+def _has_autopilot(node: NodeSpec) -> bool:
+    return node.autopilot is not None
+
+
+def _has_wind(scenario: Scenario) -> bool:
+    is_windy = any(scenario.wind.get(field, 0.0) for field in ("speed_mps", "gusts_mps"))
+    return is_windy and any(map(_has_inertia, scenario.nodes))
+
+
+def _has_position_errors(scenario: Scenario) -> bool:
+    errors = (node.mobility.get("position_error_m") for node in scenario.nodes)
+    return any(error and error.value for error in errors)
 
 
 def _has_drifting_clocks(scenario: Scenario) -> bool:
@@ -72,6 +88,8 @@ class Level:
         off: {key: value} of the settings without its effect.
         applies: Whether a scenario has the effect. Otherwise the level is left out.
         is_added: Whether it is a section `[Level NAME]` of the file, which adds lines to the scenario.
+        has_node: Whether a node has the effect. Then the settings hold for such nodes alone, and a scenario
+            has the effect if a node has it. None: the settings hold for all nodes.
     """
 
     name: str
@@ -79,6 +97,26 @@ class Level:
     off: Mapping[str, str] = field(default_factory=dict)
     applies: Callable[[Scenario], bool] = _always
     is_added: bool = False
+    has_node: Callable[[NodeSpec], bool] | None = None
+
+    def of(self, scenario: Scenario) -> "Level | None":
+        """Return the level with its settings for a scenario; None if that does not have the effect."""
+        if self.has_node is None:
+            return self if self.applies(scenario) else None
+        names = _names(scenario.nodes, self.has_node)
+        off = {key.replace("*.*", f"*.{name}", 1): value for name in names for key, value in self.off.items()}
+        return replace(self, off=off) if names else None
+
+
+def _names(nodes: Sequence[NodeSpec], has_effect: Callable[[NodeSpec], bool]) -> list[str]:
+    """Return the names of those nodes as keys have them: a group once if all of it is meant."""
+    names: list[str] = []
+    for group, members in groupby(nodes, lambda node: node.group):
+        of_group = list(members)
+        chosen = [node.name for node in of_group if has_effect(node)]
+        is_all = len(chosen) == len(of_group) and chosen[0] != group
+        names += [f"{group}[*]"] if is_all else chosen
+    return names
 
 
 _FREE_SPACE = {"*.radioMedium.pathLoss.typename": '"FreeSpacePathLoss"'}
@@ -160,10 +198,28 @@ LEVELS = (
         _has_antennas,
     ),
     Level(
+        "inertia",
+        "vehicles that have to speed up and brake",
+        {"*.*.mobility.typename": '"MasslessMobility"'},
+        has_node=_has_inertia,
+    ),
+    Level(
         "autopilot",
         "vehicles flown by ArduPilot",
-        {"*.*.mobility.typename": '"MasslessMobility"'},
-        _has_autopilots,
+        {"*.*.mobility.typename": '"QuadcopterMobility"'},
+        has_node=_has_autopilot,
+    ),
+    Level(
+        "wind",
+        "wind and gusts",
+        {"*.wind.speed": "0mps", "*.wind.gusts": "0mps"},
+        _has_wind,
+    ),
+    Level(
+        "position",
+        "errors of the positions that nodes know",
+        {"*.*.mobility.positionError": "0m"},
+        _has_position_errors,
     ),
     Level(
         "clocks",
@@ -178,7 +234,7 @@ LEVELS = (
 def levels_of(scenario: Scenario, sections: Mapping[str, Section]) -> tuple[Level, ...]:
     """Return the levels whose effects a scenario has, and then those of its file."""
     return (
-        *(level for level in LEVELS if level.applies(scenario)),
+        *(of_scenario for level in LEVELS if (of_scenario := level.of(scenario)) is not None),
         *(Level(name, _description(section), is_added=True) for name, section in sections.items()),
     )
 

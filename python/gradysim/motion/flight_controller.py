@@ -1,7 +1,7 @@
-"""A quadcopter with a built-in controller: a vehicle with inertia that flies to targets, without an autopilot.
+"""A quadcopter with a built-in controller: it has inertia and flies to targets without an autopilot.
 
-The controller is a cascade, as those of autopilots: position, velocity, acceleration, attitude, rates, thrusts.
-Its limits are close to ArduCopter's defaults. The engine has the same arithmetic in the same order:
+The controller is a cascade, as those of autopilots: position, velocity, acceleration, attitude, rates and
+thrusts. Its limits are close to ArduCopter's defaults. The engine has the same arithmetic in the same order:
 cpp/netsim/mobility/quadcopter.cpp.
 
 Source of the cascade and of the square root law: ArduPilot's documentation, "Copter Position Control and
@@ -132,7 +132,7 @@ class FlightController:
         elif a_down < -MAX_ACCELERATION_MPS2:
             a_down = -MAX_ACCELERATION_MPS2
 
-        # Thrust, as an acceleration: against gravity, and against wind and drag as the accelerometer feels them.
+        # Thrust, as an acceleration: against gravity, and against the wind that the accelerometer feels.
         wind = body.wind_mps = self._wind.velocity_mps(time_s)
         drag_north, drag_east, drag_down = self._drag_mps2
         drag_north += _FILTER * (_DRAG_PER_S * (wind[0] - v_north) - drag_north)

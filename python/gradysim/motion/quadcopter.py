@@ -71,7 +71,8 @@ class Quadcopter:
         The throttles of the four motors, 0 to 1, are in ArduPilot's order: front right, rear left
         (counterclockwise, seen from above), front left, rear right (clockwise).
         """
-        acceleration = self.push(*map(_thrust_n, throttles), duration_s)
+        front_right, rear_left, front_left, rear_right = map(_thrust_n, throttles)
+        acceleration = self.push(front_right, rear_left, front_left, rear_right, duration_s)
         if acceleration is not None:
             north, east, sink = acceleration
             forward, right, down = self._axes()

@@ -26,16 +26,12 @@ class Wind:
     gusts_mps: float = 0.0
     gust_time_s: float = 10.0
 
-    def at_vehicle(self, seed: int, node: int) -> "WindAtVehicle":
-        """Return the wind at one vehicle in the run with that seed."""
-        return WindAtVehicle(self, seed, node)
-
 
 class WindAtVehicle:
     """The wind at one vehicle."""
 
     def __init__(self, wind: Wind, seed: int, node: int) -> None:
-        """Begin at time 0."""
+        """Begin at time 0. The seed of the run and the id of the node name the stream of its gusts."""
         self._north_mps = wind.speed_mps * math.cos(wind.heading_rad)
         self._east_mps = wind.speed_mps * math.sin(wind.heading_rad)
         self._gusts = None

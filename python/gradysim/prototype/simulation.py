@@ -116,7 +116,7 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     configuration = MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
     flights = flights_of(scenario)
     quadcopters = [spec.id for spec in scenario.nodes if spec.is_quadcopter]
-    wind = Wind(**{field: float(setting.value) for field, setting in scenario.wind.items()})
+    wind = Wind(**scenario.wind)
     mobility: MasslessMobilityHandler
     if flights is not None:  # autopilots and quadcopters fly in steps of 10 ms, in both modes
         mobility = AutopilotMobilityHandler(configuration, flights, quadcopters, wind)

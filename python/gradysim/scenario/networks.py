@@ -186,7 +186,7 @@ def read_network(
         {
             "nodes": nodes,
             "medium": medium,
-            "wind": wind,
+            "wind": {field: float(setting.value) for field, setting in wind.items()},
             "communication_medium": CommunicationMediumSpec(
                 **{field: float(setting.value) for field, setting in communication.items()}
             ),

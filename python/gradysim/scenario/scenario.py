@@ -48,7 +48,7 @@ class Scenario:
         communication_medium: Prototype mode's medium.
         reference_coordinates: Latitude in degrees, longitude in degrees and altitude in meters of the origin.
         obstacles: Obstacles between the nodes.
-        wind: Fields of WindConfig that were set.
+        wind: Fields of WindConfig that were set, in SI units.
         sections: The sections of the configuration, in search order.
         repetition: 0 to repeat-1.
         iterations: Value of each iteration variable, `${x=1, 2}`, as a string.
@@ -74,7 +74,7 @@ class Scenario:
     communication_medium: CommunicationMediumSpec
     reference_coordinates: tuple[float, float, float]
     obstacles: tuple[ObstacleSpec, ...] = ()
-    wind: Mapping[str, Setting] = field(default_factory=dict)
+    wind: Mapping[str, float] = field(default_factory=dict)
     sections: tuple[Section, ...] = field(default=(), repr=False)
     repetition: int = 0
     iterations: Mapping[str, str] = field(default_factory=dict)

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gradysim.motion.quadcopter import Vector
+from gradysim.motion.wind import WindAtVehicle
 from gradysim.protocol.defaults import AUTOPILOT_USER, SPEED_MPS
 from gradysim.protocol.position import Position
 from gradysim.sitl import SitlError
@@ -35,6 +36,7 @@ class AutopilotNode:
         user: User of the autopilot if root starts it; None for root.
         parameters: ArduCopter parameters by name. SIM_WIND_SPD (m/s) and SIM_WIND_DIR (deg, direction it
             comes from) set the wind.
+        wind: Wind of the scenario; None if these parameters set it.
     """
 
     id: int
@@ -44,6 +46,7 @@ class AutopilotNode:
     program: str | os.PathLike[str] | None = None
     user: str | None = AUTOPILOT_USER
     parameters: Mapping[str, float] = field(default_factory=dict)
+    wind: WindAtVehicle | None = None
 
 
 def check_start(name: str, start: Position, reference: Position) -> None:
@@ -62,6 +65,11 @@ def ground_temperature(altitude_m: float) -> dict[str, float]:
     Without them ArduPilot assumes 25 degC, and flies 3 % too low at sea level and 10 % at 3000 m.
     """
     return dict.fromkeys(_GROUND_TEMPERATURE, _SEA_LEVEL_DEGC - _LAPSE_DEGCPM * altitude_m)
+
+
+def sets_wind(parameters: Mapping[str, float]) -> bool:
+    """Return whether ArduCopter's parameters set the wind."""
+    return any(name.startswith(_WIND) for name in parameters)
 
 
 def wind_mps(name: str, parameters: Mapping[str, float]) -> Vector:

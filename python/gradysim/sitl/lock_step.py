@@ -16,6 +16,7 @@ from typing import Any, NoReturn, cast
 
 from gradysim.encapsulator.nested_loop import outer_loop_stands
 from gradysim.motion.quadcopter import Quadcopter
+from gradysim.motion.wind import WindAtVehicle
 from gradysim.sitl import SitlError
 from gradysim.sitl.mavlink import MavlinkLink
 from gradysim.sitl.process import AutopilotProcess
@@ -47,9 +48,10 @@ class LockStepAutopilot:
         foreign_datagrams: How many came from elsewhere. They are ignored.
     """
 
-    def __init__(self, link: MavlinkLink, body: Quadcopter) -> None:
-        """Open the ports. Start the autopilot with them."""
+    def __init__(self, link: MavlinkLink, body: Quadcopter, wind: WindAtVehicle | None = None) -> None:
+        """Open the ports. Start the autopilot with them. `wind` replaces that of the vehicle."""
         self.link = link
+        self._wind = wind
         self.body = body
         self.time_s = 0.0
         self._steps_from = (0.0, 0)  # start of the present step length, and steps since then
@@ -107,6 +109,8 @@ class LockStepAutopilot:
     def answer(self) -> None:
         """Integrate one step and send the new sensor values."""
         body = self.body
+        if self._wind is not None:
+            body.wind_mps = self._wind.velocity_mps(self.time_s)
         body.step(self._throttles, 1.0 / self._rate_hz)
         # A multiple of a step, so that rounding errors do not add up.
         begin_s, steps = self._steps_from

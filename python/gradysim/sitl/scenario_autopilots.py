@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.protocol.position import Position
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.native_protocols import NativeProtocol
@@ -38,13 +39,16 @@ def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = 
         return None
     from gradysim.sitl.flights import Flights
 
-    nodes = [_node_of(spec, spec.autopilot) for spec in scenario.nodes if spec.autopilot is not None]
+    nodes = [
+        _node_of(spec, spec.autopilot, scenario) for spec in scenario.nodes if spec.autopilot is not None
+    ]
     return Flights(nodes, scenario.reference_coordinates, on_text=on_text)
 
 
-def _node_of(spec: NodeSpec, autopilot: AutopilotSpec) -> "AutopilotNode":
-    from gradysim.sitl.autopilot_node import AutopilotNode
+def _node_of(spec: NodeSpec, autopilot: AutopilotSpec, scenario: Scenario) -> "AutopilotNode":
+    from gradysim.sitl.autopilot_node import AutopilotNode, sets_wind
 
+    is_windy = scenario.wind and not sets_wind(autopilot.parameters)
     return AutopilotNode(
         id=spec.id,
         name=f"node {spec.id} ({spec.name})",
@@ -53,6 +57,7 @@ def _node_of(spec: NodeSpec, autopilot: AutopilotSpec) -> "AutopilotNode":
         program=autopilot.program,
         user=autopilot.user,
         parameters=autopilot.parameters,
+        wind=WindAtVehicle(Wind(**scenario.wind), scenario.seed, spec.id) if is_windy else None,
     )
 
 

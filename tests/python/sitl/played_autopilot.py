@@ -4,9 +4,9 @@ import json
 import socket
 import struct
 
+from gradysim.motion.quadcopter import Quadcopter
 from gradysim.sitl.lock_step import LockStepAutopilot
 from gradysim.sitl.mavlink import MavlinkLink
-from gradysim.motion.quadcopter import Quadcopter
 
 SERVOS = "<HHI16H"
 IDLE = [1000] * 16

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 from gradysim.motion.flight_controller import STEP_S, FlightController
-from gradysim.motion.wind import Wind
+from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.position import Position
 from gradysim.simulator.event import EventLoop
@@ -59,7 +59,7 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
             self._flown[node.id] = FlightController(
                 node.position,
                 self.speeds[node.id],
-                self._wind.at_vehicle(node.seed, node.id),
+                WindAtVehicle(self._wind, node.seed, node.id),
                 self.position_errors.get(node.id),
             )
 
