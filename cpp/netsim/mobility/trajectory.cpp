@@ -1,6 +1,7 @@
 #include "netsim/mobility/trajectory.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace netsim {
 
@@ -75,7 +76,11 @@ void Trajectory::add(Leg leg) {
     while (past_.end() - needed > 1 && (needed + 1)->start < current_.start - memory) {
         ++needed;
     }
-    past_.erase(past_.begin(), needed);
+    // In groups, for nodes with a hundred legs a second.
+    constexpr std::ptrdiff_t most_unneeded = 50;
+    if (needed - past_.begin() > most_unneeded) {
+        past_.erase(past_.begin(), needed);
+    }
     if (listener_ != nullptr) {
         listener_->course_changed(leg.start, speed_on(leg));
     }
