@@ -117,6 +117,8 @@ figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: r
 	  --set sim-time-limit=10min --plot docs/pictures/ladder/ladder.png
 	gradysim desync configs/zigzag.ini -c ZigZag5Synchronised --metric "groundStation data" -n 2 \
 	  --set sim-time-limit=10min --plot docs/pictures/ladder/jitter.png
+	for kind in ini python sh; do sed -n "/^\`\`\`$$kind$$/,/^\`\`\`$$/{/^\`\`\`/d;p}" docs/how-to/fly-with-inertia.md >results/square.$$kind; done
+	cd results && mv square.python square.py && sh -e square.sh && cp results/inertia.png ../docs/pictures/plots
 	rm docs/pictures/ladder/*.csv docs/pictures/ladder/*.json
 	cp results/line.png results/diff.png results/outcomes.png results/cdf.png results/time.png results/map.png docs/pictures/plots
 	cp results/compare.png docs/pictures/plots

@@ -144,3 +144,30 @@ def test_a_run_that_fails_has_no_value(make_campaign: Callable[..., Campaign]) -
     (seen,) = campaign.observations(None, campaign.all_effects, range(1), "nodes[*] heard")
     assert seen == Observation(None, failure=seen.failure)
     assert seen.failure
+
+
+FLYING = ('*.nodes[*].mobility.typename="QuadcopterMobility"', "*.nodes[*].mobility.initialZ=20m")
+WINDY = """
+*.wind.speed = 5mps
+*.wind.gusts = 1mps
+*.nodes[*].mobility.positionError = 1m
+"""
+
+
+def test_effects_of_motion_change_no_other_draws(make_campaign: Callable[..., Campaign]) -> None:
+    settings = (RANDOM_TIMES, "sim-time-limit=2s", *FLYING)
+    campaign = make_campaign(*settings, file=SCATTERED + WINDY)
+    assert [level.name for level in campaign.levels][-3:] == ["inertia", "wind", "position"]
+    at_rest = draws(campaign, campaign.all_effects - {"inertia"})
+    for name in ("wind", "position"):
+        # Without inertia, nothing acts on the nodes.
+        assert draws(campaign, campaign.all_effects - {"inertia", name}) == at_rest
+    gusts = drift(campaign, campaign.all_effects - {"position"})
+    assert drift(campaign, campaign.all_effects - {"position", "fading", "noise"}) == gusts
+    assert [sent for _, sent in draws(campaign, campaign.all_effects)] == [sent for _, sent in at_rest]
+
+
+def drift(campaign: Campaign, effects: Effects) -> list[object]:
+    positions = [position for position, _ in draws(campaign, effects)]
+    assert positions != [node.initial_position for node in campaign.scenario(effects, 0).nodes]
+    return positions

@@ -47,6 +47,8 @@ def test_the_default_radio_has_no_effect_beyond_noise(make_campaign: Callable[..
         (IDEAL_OBSTACLES, []),
         (BOX, []),
         ('*.nodes[1].wlan[*].radio.antenna.typename = "DipoleAntenna"', ["antennas"]),
+        ("*.nodes[1].mobility.positionError = 1m", ["position"]),
+        ("*.wind.speed = 5mps", []),  # nothing that it acts on
         ("*.nodes[1].clock.oscillator.driftRate = 5ppm", ["clocks"]),
         ("*.nodes[1].clock.oscillator.driftRate = 0ppm", []),
     ],
@@ -111,3 +113,20 @@ def test_each_level_turns_its_effect_off_in_the_scenario(make_campaign: Callable
         "IdealObstacleLoss",
     )
     assert "typename" not in full.medium
+
+
+def test_settings_without_an_effect_of_some_nodes_are_theirs(make_campaign: Callable[..., Campaign]) -> None:
+    typename = "mobility.typename"
+    one = make_campaign(f'*.nodes[1].{typename}="QuadcopterMobility"', "*.wind.gusts=1mps")
+    assert names(one) == [*RADIO, "inertia", "wind"]
+    massless = '"MasslessMobility"'
+    assert one.levels[-2].off == {f"*.nodes[1].{typename}": massless}
+    everywhere = make_campaign(f'*.nodes[*].{typename}="QuadcopterMobility"')
+    assert everywhere.levels[-1].off == {f"*.nodes[*].{typename}": massless}
+
+
+def test_an_autopilot_is_a_level_above_inertia(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign('*.nodes[2].mobility.typename="ArdupilotMobility"')
+    assert names(campaign) == [*RADIO, "inertia", "autopilot"]
+    below = campaign.scenario(campaign.all_effects - {"autopilot"}, 0)
+    assert [node.is_quadcopter for node in below.nodes] == [False, False, True]

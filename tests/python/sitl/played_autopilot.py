@@ -27,8 +27,8 @@ class Process:
 class Played:
     """The autopilot's side of the link, and the simulation's."""
 
-    def __init__(self, name="vehicle 0", rate_hz=400):
-        self.ours = LockStepAutopilot(MavlinkLink(name), Quadcopter())
+    def __init__(self, name="vehicle 0", rate_hz=400, wind=None):
+        self.ours = LockStepAutopilot(MavlinkLink(name), Quadcopter(), wind)
         self.physics = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.physics.connect(("127.0.0.1", self.ours.port))
         self.physics.settimeout(1.0)

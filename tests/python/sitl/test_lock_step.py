@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import math
 import socket
 import struct
 import time
@@ -9,6 +10,7 @@ from contextlib import ExitStack, closing
 
 import pytest
 
+from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.sitl import SitlError
 from gradysim.sitl.flights import Flights
 from gradysim.sitl.lock_step import LockStepGroup, VehicleClockLoop
@@ -56,6 +58,17 @@ def test_a_wish_of_somebody_else_is_ignored_and_counted(played, caplog):
     assert played.ours.foreign_datagrams == 2
     played.ours.close()
     assert "2 datagrams" in caplog.text
+
+
+def test_the_wind_of_the_scenario_moves_the_vehicle():
+    wind = WindAtVehicle(Wind(6.0, math.pi / 2, 1.0), 1, 0)
+    with closing(Played(wind=wind)) as played:
+        played.ours.body.position_m = (0.0, 0.0, -50.0)
+        for _ in range(400):
+            played.ours.answer()
+        north, east, _ = played.ours.body.velocity_mps
+        assert east > 0.5 > abs(north)
+        assert played.ours.body.wind_mps != (0, 6, 0)
 
 
 def test_its_motors_turn_the_vehicle(played):
