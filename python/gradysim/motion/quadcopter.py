@@ -74,12 +74,13 @@ class Quadcopter:
         front_right, rear_left, front_left, rear_right = map(_thrust_n, throttles)
         acceleration = self.push(front_right, rear_left, front_left, rear_right, duration_s)
         if acceleration is not None:
-            north, east, sink = acceleration
-            forward, right, down = self._axes()
+            north, east, down = acceleration
+            w, x, y, z = self.attitude
+            # Along the axes forward, right and down of the vehicle.
             self.specific_force_mps2 = (
-                forward[0] * north + forward[1] * east + forward[2] * sink,
-                right[0] * north + right[1] * east + right[2] * sink,
-                down[0] * north + down[1] * east + down[2] * sink,
+                (1 - 2 * (y * y + z * z)) * north + 2 * (x * y + w * z) * east + 2 * (x * z - w * y) * down,
+                2 * (x * y - w * z) * north + (1 - 2 * (x * x + z * z)) * east + 2 * (y * z + w * x) * down,
+                2 * (x * z + w * y) * north + 2 * (y * z - w * x) * east + (1 - 2 * (x * x + y * y)) * down,
             )
 
     def push(
@@ -148,15 +149,6 @@ class Quadcopter:
             cos * a_north + sin * a_east,
             cos * a_east - sin * a_north,
             -GRAVITY_MPS2,
-        )
-
-    def _axes(self) -> tuple[Vector, Vector, Vector]:
-        """Forward, right and down of the vehicle, in the world's frame."""
-        w, x, y, z = self.attitude
-        return (
-            (1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)),
-            (2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)),
-            (2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)),
         )
 
 

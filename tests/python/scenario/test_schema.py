@@ -37,6 +37,7 @@ def test_each_declared_field_is_one_of_the_engine():
         "antenna": interface.radio.antenna,
         "mac": interface.mac,
         "csma": interface.csma,
+        "wind": _netsim.WindConfig(),
     }
     for struct, keys in engine_keys().items():
         for key in keys:
