@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace netsim {
 
@@ -59,11 +58,8 @@ double limited(double value, double limit) {
 
 }  // namespace
 
-Quadcopter::Quadcopter(Position start, double speed_mps, Wind wind)
-    : position_{start.x, start.y, 0.0 - start.z},
-      target_(position_),
-      speed_mps_(speed_mps),
-      wind_(std::move(wind)) {}
+Quadcopter::Quadcopter(Position start, double speed_mps, const Wind& wind)
+    : position_{start.x, start.y, 0.0 - start.z}, target_(position_), speed_mps_(speed_mps), wind_(wind) {}
 
 double Quadcopter::tilt_rad() const {
     const auto [w, x, y, z] = attitude_;

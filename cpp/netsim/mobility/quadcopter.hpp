@@ -17,7 +17,7 @@ public:
     static constexpr double step_s = 0.01;
 
     // It hovers at `start` until it gets a target.
-    Quadcopter(Position start, double speed_mps, Wind wind);
+    Quadcopter(Position start, double speed_mps, const Wind& wind);
 
     // From the next step on.
     void go_to(Position target) { target_ = {target.x, target.y, 0.0 - target.z}; }

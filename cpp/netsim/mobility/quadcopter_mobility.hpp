@@ -2,8 +2,6 @@
 // One leg of its trajectory is one update; see Network's FlightClock.
 #pragma once
 
-#include <utility>
-
 #include "netsim/mobility/mobility.hpp"
 #include "netsim/mobility/quadcopter.hpp"
 
@@ -11,8 +9,8 @@ namespace netsim {
 
 class QuadcopterMobility final : public Mobility {
 public:
-    QuadcopterMobility(Position initial, double speed_mps, Wind wind)
-        : Mobility(initial), vehicle_(initial, speed_mps, std::move(wind)) {}
+    QuadcopterMobility(Position initial, double speed_mps, const Wind& wind)
+        : Mobility(initial), vehicle_(initial, speed_mps, wind) {}
 
     void go_to(SimTime now, Position target) override;
     void set_speed(SimTime now, double speed_mps) override;

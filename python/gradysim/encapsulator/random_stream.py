@@ -39,8 +39,8 @@ class Purpose(IntEnum):
 
     PROTOCOL = 3
     PARAMETER = 7
-    GUSTS = 8
-    POSITION_ERROR = 9
+    GUSTS = 9
+    POSITION_ERROR = 10
     COMMUNICATION = 101
 
 

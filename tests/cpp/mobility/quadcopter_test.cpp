@@ -1,6 +1,7 @@
 #include "netsim/mobility/quadcopter.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -19,7 +20,8 @@ Quadcopter vehicle(double speed_mps = 10, const WindConfig& wind = {}, Position 
 // Its positions after each step.
 std::vector<Position> flown(Quadcopter& vehicle, double seconds, GaussMarkov* error = nullptr) {
     std::vector<Position> positions;
-    for (double time_s = 0; time_s < seconds; time_s += Quadcopter::step_s) {
+    const auto steps = static_cast<int>(std::lround(seconds / Quadcopter::step_s));
+    for (int step = 0; step < steps; ++step) {
         vehicle.step(error);
         positions.push_back(vehicle.position());
     }

@@ -53,6 +53,8 @@ def test_the_numbers_of_purposes_are_the_engines():
     engines = {name: int(number) for name, number in re.findall(r"(\w+) = (\d+)", body)}
     assert engines["protocol"] == Purpose.PROTOCOL
     assert engines["parameter"] == Purpose.PARAMETER
+    assert engines["gusts"] == Purpose.GUSTS
+    assert engines["position_error"] == Purpose.POSITION_ERROR
     assert max(engines.values()) < 100 <= Purpose.COMMUNICATION
 
 
