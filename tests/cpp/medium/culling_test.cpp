@@ -125,6 +125,19 @@ TEST_P(RandomScenarios, MatchThePlainModelForAnyPathLoss) {
     });
 }
 
+TEST_P(RandomScenarios, MatchThePlainModelWithQuadcoptersInAStorm) {
+    expect_same_courses(GetParam(), 3, [](std::uint64_t seed) {
+        RandomScenario scenario = test::make_random_scenario(seed);
+        for (NodeConfig& node : scenario.nodes) {
+            node.mobility.type_name = "QuadcopterMobility";
+            node.initial_position.z += 20;
+            node.wind = {.speed_mps = 60, .gusts_mps = 20, .gust_time_s = 0.1};
+        }
+        scenario.talk.moves = true;
+        return scenario;
+    });
+}
+
 TEST_P(RandomScenarios, MatchThePlainModelWithAntennasAndObstacles) {
     expect_same_courses(GetParam(), 10, [](std::uint64_t seed) {
         const RandomScenario scenario = test::with_random_environment(test::make_random_scenario(seed));

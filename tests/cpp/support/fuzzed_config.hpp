@@ -41,6 +41,7 @@ public:
         if (bytes_.flag()) {
             config.mobility.type_name = bytes_.name(mobility_type_names);
             fields(MobilityConfig::schema, &config.mobility);
+            fields(WindConfig::schema, &config.wind);
         }
         config.mobility.telemetry_interval_s = bytes_.flag() ? bytes_.number(1) : 0;
         return config;
