@@ -15,6 +15,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/mobility_config.hpp"
 #include "netsim/config/obstacle_config.hpp"
+#include "netsim/config/wind_config.hpp"
 
 namespace netsim {
 namespace {
@@ -39,6 +40,7 @@ private:
     MediumConfig medium_;
     MobilityConfig mobility_;
     ObstacleConfig obstacle_;
+    WindConfig wind_;
     std::vector<std::pair<const Schema*, void*>> configs_{{&InterfaceConfig::schema, &interface_},
                                                           {&MacConfig::schema, &interface_.mac},
                                                           {&CsmaConfig::schema, &interface_.csma},
@@ -46,7 +48,8 @@ private:
                                                           {&AntennaConfig::schema, &interface_.radio.antenna},
                                                           {&MediumConfig::schema, &medium_},
                                                           {&MobilityConfig::schema, &mobility_},
-                                                          {&ObstacleConfig::schema, &obstacle_}};
+                                                          {&ObstacleConfig::schema, &obstacle_},
+                                                          {&WindConfig::schema, &wind_}};
 };
 
 // The field that the check of the struct reports; "" for none.
