@@ -276,9 +276,10 @@ class MediumFields:
     """Time from one independent state of a link to the next, at least 1us; 0s: with each frame, as in
     INET; -1s: 5 ms, shadowing 1 s."""
     shadowing_standard_deviation_db: float
-    """Of a normal number of decibels that each link gains, beside any path loss and its fading."""
+    """Standard deviation of the normally distributed gain of each link in dB, beside any path loss and
+    fading."""
     shadowing_decorrelation_time_s: float
-    """From one independent state of that gain to the next, at least 1us; 0s: with each frame."""
+    """Time from one independent value of that gain to the next, at least 1us; 0s: with each frame."""
     propagation: str
     """How frames travel: at the speed of light."""
     obstacle_loss: str

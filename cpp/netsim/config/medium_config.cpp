@@ -78,10 +78,11 @@ constexpr Field fields[] = {
      with_fading},
     {NETSIM_FIELD(MediumConfig, shadowing_standard_deviation_db), "shadowing.standardDeviation",
      number_in("dB").at_least(0).at_most(40),
-     "of a normal number of decibels that each link gains, beside any path loss and its fading"},
+     "standard deviation of the normally distributed gain of each link in dB, beside any path loss and "
+     "fading"},
     {NETSIM_FIELD(MediumConfig, shadowing_decorrelation_time_s), "shadowing.decorrelationTime",
      quantity("s").at_least(0).at_most(1e6),
-     "from one independent state of that gain to the next, at least 1us; 0s: with each frame"},
+     "time from one independent value of that gain to the next, at least 1us; 0s: with each frame"},
     {NETSIM_FIELD(MediumConfig, propagation), "propagation.typename", one_of(propagation_names),
      "How frames travel: at the speed of light"},
     {NETSIM_FIELD(MediumConfig, obstacle_loss), "obstacleLoss.typename", one_of(obstacle_loss_names),

@@ -7,7 +7,6 @@ error of the engine's validation is reported at its line of the .ini file.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
@@ -24,8 +23,6 @@ from gradysim.sitl.scenario_autopilots import check_autopilots
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig
-
-STILL_AIR: Mapping[str, float] = MappingProxyType({})
 
 
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
@@ -76,7 +73,7 @@ def _with_other_errors(first: ConfigError, scenario: Scenario) -> ConfigError:
             if network is None:
                 node_config(spec)
             else:
-                add_node(network, spec, powers, scenario.medium)
+                add_node(network, spec, powers, scenario.medium, scenario.wind)
     return errors.combined()
 
 
@@ -111,7 +108,7 @@ def add_node(
     spec: NodeSpec,
     powers: PowersForRanges,
     medium: Mapping[str, Setting],
-    wind: Mapping[str, float] = STILL_AIR,
+    wind: Mapping[str, float],
 ) -> "Node":
     """Add one node to `network`. Raise the errors that depend on the whole configuration."""
     config = node_config(spec)
