@@ -68,7 +68,7 @@ def explanation_sentences(explanation: Explanation, works: int, fails: int) -> I
     yield from pattern_sentences(explanation.diagnosis, 2)
     first = explanation.first
     if first is None:
-        yield "All frames have the same outcomes at both levels. Only times differ, of frames or of timers."
+        yield "All frames have the same outcomes at both levels. Times or positions differ."
     else:
         yield (
             f"First difference, at {first.time_s:.6f} s: the frame of {text_of_cause(first.cause)} from"

@@ -63,6 +63,4 @@ def test_messages_that_did_not_fit_into_the_queue(
 def test_only_times_differ(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
     found, text = explanation_of("airtime")
     assert found.first is None
-    assert text.endswith(
-        "All frames have the same outcomes at both levels. Only times differ, of frames or of timers."
-    )
+    assert text.endswith("All frames have the same outcomes at both levels. Times or positions differ.")
