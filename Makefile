@@ -8,6 +8,8 @@ STAMPS := $(VENV)/stamps
 comma := ,
 FUZZ_SECONDS ?= 60
 MINUTES ?= 20
+# One more worker than processors: some tests wait.
+WORKERS := $(shell echo $$(($$(nproc) + 1)))
 # Of `make test-cpp`: a filter of GoogleTest; of `make test-python`: what pytest takes. All tests, if nothing is said.
 ONLY ?=
 
@@ -24,7 +26,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-slow test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -32,7 +34,7 @@ help:  ## List the commands.
 demo: build  ## Run ZigZag in both modes and print the comparison.
 	$(BIN)/python examples/zigzag/compare.py
 
-test: test-cpp test-python test-viewer  ## Build and run all tests: C++, Python, the page of replays.
+test: test-cpp test-python test-viewer  ## Build and run the tests: C++, Python, the page of replays.
 
 test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and UndefinedBehaviorSanitizer; some: ONLY='Contention*'.
 	cmake -S cpp --preset asan --log-level=WARNING
@@ -40,13 +42,13 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 	$(if $(ONLY),build/asan/netsim_tests --gtest_brief=1 --gtest_filter='$(ONLY)',ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error)
 
 test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel; some: ONLY='FILE -k NAME'.
-	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=auto --dist=loadfile)
+	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=$(WORKERS) --dist=loadfile)
 
 coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and the share of lines that they reach; takes long.
-	$(BIN)/python -m pytest --numprocesses=auto --dist=loadfile --cov --cov-report=term:skip-covered
+	$(BIN)/python -m pytest --numprocesses=$(WORKERS) --dist=loadfile --cov --cov-report=term:skip-covered
 
 test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays, in Chromium.
-	$(BIN)/python -m pytest tests/viewer
+	$(BIN)/python -m pytest tests/viewer --numprocesses=auto --dist=worksteal
 
 test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
 	cmake -S cpp --preset tsan --log-level=WARNING
@@ -92,10 +94,12 @@ format: $(STAMPS)/lint  ## Lay out all sources; fixes what ruff can fix.
 
 build: $(STAMPS)/editable  ## Install the package into .venv, editable, with the engine compiled.
 
-verify: build $(STAMPS)/test system-gtest  ## Compare with INET, ns-3 and closed forms; draws docs/verification; the tests that take long.
+test-slow: build $(STAMPS)/test $(node_packages) system-chromium system-tshark  ## The Python tests that take too long for `make test`: the commands of most pages.
+	$(BIN)/python -m pytest tests/python tests/viewer --numprocesses=$(WORKERS) --dist=loadfile -m verify
+
+verify: build $(STAMPS)/test system-gtest test-slow  ## Compare with INET, ns-3 and closed forms; draws docs/verification; the tests that take long.
 	$(BIN)/python -m pytest tests/verification --verify
-	$(BIN)/python -m pytest tests/python --numprocesses=auto --dist=loadfile -m verify
-	NETSIM_THOROUGHNESS=10 $(MAKE) --no-print-directory test-cpp
+	NETSIM_THOROUGHNESS=20 $(MAKE) --no-print-directory test-cpp
 
 bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals, and a profile by layer.
 	cmake -S cpp --preset bench --log-level=WARNING
@@ -141,9 +145,9 @@ wheels: $(STAMPS)/build $(STAMPS)/wheels $(STAMPS)/test system-qemu  ## Build wh
 	$(BIN)/python packaging/build_wheels.py
 	$(BIN)/python -m pytest -o pythonpath='packaging tests/wheels' -vv -rs tests/wheels
 
-release: | $(VENV)/bin/python  ## Test, build the wheels and tag a release: VERSION=1.0.0.
+release: | $(VENV)/bin/python  ## Run all checks and tests, build the wheels and tag a release: VERSION=1.0.0.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
-	$(MAKE) --no-print-directory lint test
+	$(MAKE) --no-print-directory lint test test-slow
 	VCS_VERSIONING_PRETEND_VERSION_FOR_GRADYSIM=$(VERSION) $(MAKE) --no-print-directory wheels
 	$(BIN)/python packaging/release.py tag "$(VERSION)"
 

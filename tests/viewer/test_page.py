@@ -21,6 +21,7 @@ from gradysim.simulator.handler.visualization import VisualizationConfiguration,
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
 from gradysim.viewer.page import page
 from python.quiet_protocol import Quiet
+from python.thorough import some
 from viewer.conftest import record
 
 ROOT = Path(__file__).parents[2]
@@ -47,6 +48,7 @@ def test_states_equal_those_of_the_reader(zigzag, browser):
     assert browser(zigzag, times=times)["states"] == [state(replay, time_s) for time_s in times]
 
 
+@pytest.mark.verify
 def test_a_node_says_what_it_did_not_notice(zigzag, browser):
     replay, station, time_s = read_replay(zigzag), 7, 200.5
     assert replay.run["nodes"][station]["name"] == "groundStation"
@@ -64,7 +66,7 @@ def test_a_node_says_what_it_did_not_notice(zigzag, browser):
     assert re.search(r"distance\s+groundStation\s+below sensitivity\s", said["text"])
 
 
-@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("dark", some([False, True]))
 def test_it_is_quiet_and_not_blank(town, browser, dark):
     said = browser(town, address="#t=0.7&node=drones[1]", dark=dark)
     assert said["console"] == []
@@ -80,10 +82,12 @@ def test_losses_at_the_ground_station_are_red(zigzag, browser):
     assert far["near_pixels"] < near["near_pixels"]
 
 
+@pytest.mark.verify
 def test_it_fits_at_200_percent(zigzag, browser):
     assert not browser(zigzag, width=640, height=400, scale=2)["scrolls_sideways"]
 
 
+@pytest.mark.verify
 def test_a_link_shows_what_it_says(zigzag, browser):
     address = "#t=30.5&node=uavs[1]&follow=1&filter=kind:broadcast"
     said = browser(zigzag, address=address, until="id 1 · uavs")
@@ -106,10 +110,12 @@ def test_the_next_loss_says_who_interfered(zigzag, browser):
     assert said["near_pixels"] > 300
 
 
+@pytest.mark.verify
 def test_a_wrong_filter_says_so(zigzag, browser):
     browser(zigzag, fill="color:red", until='"color" is not a key')
 
 
+@pytest.mark.verify
 def test_an_outcome_that_does_not_exist_is_answered_with_those_that_do(zigzag, browser):
     said = browser(zigzag, fill="outcome:busy", until='"busy" is not an outcome')
     (names,) = re.findall(r"is not an outcome; expected (.*)", said["text"])
@@ -118,11 +124,12 @@ def test_an_outcome_that_does_not_exist_is_answered_with_those_that_do(zigzag, b
     assert "out_of_range" not in names
 
 
-@pytest.mark.parametrize("text", ["outcome:Receiver locked", "node:uavs", "at:uavs[1]", "groundst"])
+@pytest.mark.parametrize("text", some(["outcome:Receiver locked", "node:uavs", "at:uavs[1]", "groundst"]))
 def test_the_filter_takes_what_the_page_shows(zigzag, browser, text):
     browser(zigzag, address=f"#t=0&filter={text}", keys=["ArrowRight"], until="&frame=")
 
 
+@pytest.mark.verify
 def test_a_filter_that_nothing_fits_says_so(zigzag, browser):
     browser(zigzag, fill="kind:rts", until="No frame of the run fits.")
 
@@ -136,6 +143,7 @@ def test_the_space_bar_plays_and_pauses_wherever_the_focus_is(zigzag, browser):
     assert browser(zigzag, keys=keys, values={"names": names})["values"] == {"names": "false"}
 
 
+@pytest.mark.verify
 def test_enter_chooses_the_frame_that_had_the_focus_though_rows_have_moved(zigzag, browser):
     starts_ns = read_replay(zigzag).table("frames")["time_ns"]
     frame = sum(start_ns <= 100e9 for start_ns in starts_ns) - 30 + 5
@@ -144,6 +152,7 @@ def test_enter_chooses_the_frame_that_had_the_focus_though_rows_have_moved(zigza
     browser(zigzag, address="#t=100", keys=keys)
 
 
+@pytest.mark.verify
 def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
     replay = read_replay(reports)
     frames = replay.table("frames")
@@ -164,7 +173,7 @@ def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
     assert fresh["picture"] == said["picture"]
 
 
-@pytest.mark.parametrize(("width", "height"), [(1280, 640), (1280, 800), (1400, 850)])
+@pytest.mark.parametrize(("width", "height"), some([(1280, 640), (1280, 800), (1400, 850)]))
 def test_the_reason_of_a_loss_is_in_view(zigzag, browser, width, height):
     inside = """(() => {
       const isIn = (inner, outer) => {
@@ -181,11 +190,13 @@ def test_the_reason_of_a_loss_is_in_view(zigzag, browser, width, height):
     assert said["values"]["inside"] == [True, True]
 
 
+@pytest.mark.verify
 def test_frames_in_the_air_at_the_end_say_so(browser, tmp_path):
     short = record(tmp_path / "short.html", "zigzag.ini", "ZigZag5Synchronised", "1.00001s")
     assert "in the air at the end" in browser(short, address="#t=1")["text"]
 
 
+@pytest.mark.verify
 def test_a_run_that_was_killed_opens(zigzag, browser, tmp_path):
     killed = tmp_path / "killed.html"
     killed.write_bytes(zigzag.read_bytes()[:-2000])
@@ -195,6 +206,7 @@ def test_a_run_that_was_killed_opens(zigzag, browser, tmp_path):
     assert "ended early" in said["text"]
 
 
+@pytest.mark.verify
 def test_two_replays_beside_each_other_have_one_clock(zigzag, town, browser, tmp_path):
     both = tmp_path / "both.html"
     names = json.dumps([zigzag.as_uri(), town.as_uri()])

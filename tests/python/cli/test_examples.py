@@ -31,6 +31,7 @@ def test_its_runs_succeed(example, mode):
             assert main([*arguments, *settings]) == 0
 
 
+@pytest.mark.verify
 @compiled
 def test_the_comparison_of_zigzag_runs_in_a_copy(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)

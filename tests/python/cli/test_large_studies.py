@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+import pytest
+
 from gradysim.cli.errors import FAILED
 
 INI = """
@@ -39,6 +41,7 @@ sys.exit(done.returncode)
 """
 
 
+@pytest.mark.verify
 def test_a_study_of_100_000_runs_reaches_its_first_run_with_little_memory(tmp_path):
     (tmp_path / "study.ini").write_text(INI)
     (tmp_path / "protocol.py").write_text(PROTOCOL)

@@ -23,6 +23,7 @@ def folder(climbers: Callable[[str, str], Path]) -> Path:
     return climbers(GUIDE, "test_climbers.py")
 
 
+@pytest.mark.verify
 def test_the_checks_hold_in_both_modes(
     code_blocks: CodeBlocks, folder: Path, shell: Callable[[str, Path], str]
 ) -> None:

@@ -10,6 +10,7 @@ pytest.importorskip("gradysim._netsim")
 GUIDE = "docs/how-to/choose-the-number-of-runs.md"
 
 
+@pytest.mark.verify
 def test_its_commands_print_what_it_shows(
     code_blocks: Callable[[str, str], list[str]], shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:

@@ -15,6 +15,7 @@ GUIDE = "docs/how-to/climb-the-ladder.md"
 CodeBlocks = Callable[[str, str], list[str]]
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("number", [0, 1])
 def test_its_commands_print_what_it_shows(
     number: int, code_blocks: CodeBlocks, shell: Callable[[str, Path], str], clone: Path
@@ -25,6 +26,7 @@ def test_its_commands_print_what_it_shows(
     assert number or (clone / "results/ladder.png").stat().st_size
 
 
+@pytest.mark.verify
 def test_its_script_prints_what_it_shows(
     code_blocks: CodeBlocks, clone: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -15,6 +15,7 @@ GUIDE = "docs/how-to/compare-two-studies.md"
 CodeBlocks = Callable[[str, str], list[str]]
 
 
+@pytest.mark.verify
 def test_its_commands_print_what_it_shows(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], root: Path, clone: Path
 ) -> None:

@@ -22,6 +22,7 @@ def study(code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: 
     return tmp_path
 
 
+@pytest.mark.verify
 def test_the_means_are_those_that_are_shown(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], study: Path
 ) -> None:
@@ -30,6 +31,7 @@ def test_the_means_are_those_that_are_shown(
     assert [line.rstrip() for line in printed] == code_blocks(GUIDE, "text")[0].splitlines()
 
 
+@pytest.mark.verify
 def test_its_other_commands_select_quantities(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], study: Path
 ) -> None:

@@ -10,6 +10,7 @@ pytest.importorskip("gradysim._netsim")
 PAGE = "docs/explanation/determinism.md"
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("number", [0, 1])
 def test_the_output_is_the_one_that_is_shown(
     root: Path,

@@ -12,6 +12,7 @@ GUIDE = "docs/how-to/find-what-breaks-a-protocol.md"
 CodeBlocks = Callable[[str, str], list[str]]
 
 
+@pytest.mark.verify
 def test_its_command_prints_what_it_shows(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], clone: Path
 ) -> None:

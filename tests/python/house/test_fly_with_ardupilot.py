@@ -35,6 +35,7 @@ def patrol(folder: Path, imported: Callable[[Path], Any]) -> Any:
     return imported(folder / "patrol.py")
 
 
+@pytest.mark.verify
 def test_the_script_flies(
     patrol: Any, toy_copter: Callable[..., Path], monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
@@ -86,6 +87,7 @@ def test_the_commands_run(
     assert capsys.readouterr().out.count("uavs[1]") == len(runs) == 2
 
 
+@pytest.mark.verify
 def test_a_failure_is_told_in_the_words_of_the_guide(
     patrol: Any, toy_copter: Callable[..., Path], code_blocks: CodeBlocks
 ) -> None:

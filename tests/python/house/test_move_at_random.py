@@ -30,6 +30,7 @@ def test_a_trip_stays_in_its_box(saved: Saved, mode: str) -> None:
             assert lowest <= value <= highest
 
 
+@pytest.mark.verify
 def test_it_can_be_watched(code_blocks: Callable[[str, str], list[str]], saved: Saved) -> None:
     (command,) = code_blocks(GUIDE, "sh")
     assert watched(command.strip(), saved(GUIDE, python="wander.py", ini="wander.ini"))[0]["complete"]

@@ -15,6 +15,7 @@ GUIDE = "docs/how-to/pack-a-study.md"
 CodeBlocks = Callable[[str, str], list[str]]
 
 
+@pytest.mark.verify
 def test_its_commands_print_what_is_shown(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:

@@ -25,6 +25,7 @@ def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
     return names
 
 
+@pytest.mark.verify
 def test_its_commands_draw_its_pictures(
     code_blocks: CodeBlocks, shell: Shell, root: Path, tmp_path: Path
 ) -> None:

@@ -22,6 +22,7 @@ def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
     return names
 
 
+@pytest.mark.verify
 def test_rows_of_both_modes_come_out_of_the_file(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path, shown: dict[str, Any]
 ) -> None:

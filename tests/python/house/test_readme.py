@@ -42,6 +42,7 @@ def test_it_shows_a_part_of_the_summary(
     assert shown in "\n".join(printed)
 
 
+@pytest.mark.verify
 def test_the_run_can_be_watched(folder: Path) -> None:
     (command,) = re.findall(r"^(gradysim view hello.ini) +# ", README.read_text(), re.MULTILINE)
     assert watched(command, folder)[0]["complete"]

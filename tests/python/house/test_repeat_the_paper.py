@@ -46,6 +46,7 @@ def readings(root: Path, config: str, *overrides: str) -> list[int]:
     return counts
 
 
+@pytest.mark.verify
 def test_every_command_of_gradysim_runs(
     commands: list[str], shell: Shell, root: Path, tmp_path: Path
 ) -> None:
@@ -58,6 +59,7 @@ def test_every_command_of_gradysim_runs(
     assert "groundStation data" in shell(means.replace("results/", f"{tmp_path}/"), root)
 
 
+@pytest.mark.verify
 def test_the_figures_are_drawn_from_a_study(
     code_blocks: Callable[[str, str], list[str]], shell: Shell, root: Path, tmp_path: Path
 ) -> None:

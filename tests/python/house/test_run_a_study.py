@@ -17,6 +17,7 @@ def without_times(printed: str) -> list[str]:
     return [re.sub(r"[\d.]+ s$", "", line) for line in printed.splitlines()]
 
 
+@pytest.mark.verify
 def test_its_commands_print_what_is_shown(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:

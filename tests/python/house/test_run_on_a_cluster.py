@@ -44,6 +44,7 @@ def without_times(printed: str) -> list[str]:
     return [re.sub(r"[\d.]+ s$", "", line) for line in printed.splitlines()]
 
 
+@pytest.mark.verify
 @pytest.mark.usefixtures("slurm")
 def test_an_array_does_all_runs(code_blocks: CodeBlocks, shell: Shell, tmp_path: Path) -> None:
     (commands,) = code_blocks(GUIDE, "sh")
@@ -71,6 +72,7 @@ def test_the_script_of_a_job_runs(code_blocks: CodeBlocks, shell: Shell, swarm: 
     assert len(list((swarm / "results").iterdir())) == 5
 
 
+@pytest.mark.verify
 def test_another_executor_computes_the_study(code_blocks: CodeBlocks, swarm: Path) -> None:
     (program,) = code_blocks(GUIDE, "python")
     (swarm / "pool.py").write_text(program)

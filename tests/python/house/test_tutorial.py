@@ -117,6 +117,7 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Played:
     return Played(folder, steps, files)
 
 
+@pytest.mark.verify
 def test_the_commands_print_what_is_shown(played: Played) -> None:
     for step in played.steps:
         printed = plain(step.printed)
@@ -127,6 +128,7 @@ def test_the_commands_print_what_is_shown(played: Played) -> None:
             assert plain(step.shown) == printed, step.command
 
 
+@pytest.mark.verify
 def test_the_commands_leave_the_files_that_are_told(played: Played) -> None:
     names = {"map.png", "spread.png", "collected.pdf", "collected.csv", "collected.json", "lost.png"}
     assert names <= {file.name for file in played.folder.iterdir()}
@@ -164,6 +166,7 @@ def test_the_installation_is_of_this_project_with_its_plots() -> None:
     assert commands.splitlines()[-1] == "pip install . matplotlib"
 
 
+@pytest.mark.verify
 def test_the_radio_reaches_as_far_as_it_says(played: Played, tmp_path: Path) -> None:
     text = PAGES[2].read_text(encoding="utf-8")
     (reach_m,) = re.findall(r"real radio reach (\d+) m by default", text)

@@ -38,6 +38,7 @@ def shown(code_blocks: CodeBlocks) -> dict[str, Any]:
     return names
 
 
+@pytest.mark.verify
 def test_its_commands_write_what_its_functions_read(
     code_blocks: CodeBlocks, shell: Shell, folder: Path, shown: dict[str, Any]
 ) -> None:

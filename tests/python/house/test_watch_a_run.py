@@ -29,6 +29,7 @@ def folder(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.verify
 def test_its_commands_of_sh(text: str, folder: Path, shell: Callable[..., str]) -> None:
     lines = "".join(re.findall(r"^```sh\n(.*?)^```", text, re.MULTILINE | re.DOTALL)).splitlines()
     for line in lines:

@@ -11,13 +11,14 @@ from gradysim.scenario.errors import Source
 from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import Finding
 from gradysim.scenario.sections import config_names
+from python.thorough import some
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 EXAMPLES = [
-    (file, config)
+    case
     for file in sorted(CONFIGS.rglob("*.ini"))
     if "sim-time-limit" in file.read_text()  # other files are only included
-    for config in config_names(read_ini(file))
+    for case in some((file, config) for config in config_names(read_ini(file)))
 ]
 UAVS = "*.uavs[*]"
 RADIO = f"{UAVS}.wlan[*].radio"

@@ -125,6 +125,7 @@ def test_a_viewer_that_pauses_and_leaves_stops_nobody(live, make_scenario):
     assert ends(thread)
 
 
+@pytest.mark.verify
 def test_a_hundred_viewers_some_of_which_never_read(live, make_scenario):
     with ExitStack() as all_viewers:
         for _ in range(50):

@@ -110,6 +110,7 @@ def test_no_protocol_stays(use):
     assert protocols_alive() == before
 
 
+@pytest.mark.verify
 def test_a_thousand_simulations_leave_no_memory_behind():
     """The first hundred fill caches. Each of the others may add less than 50 bytes."""
     uses = [run_to_the_end, fail, stop_early, drop_half_way, never_begin]

@@ -16,6 +16,7 @@ from gradysim.cli.check import check_config
 from gradysim.scenario.errors import ErrorCollector
 from gradysim.scenario.ini import read_ini
 from gradysim.scenario.sections import config_names
+from python.thorough import some
 from python.torture.mutant_files import ROOT
 from python.torture.mutants import check_mutant, link_sources
 
@@ -32,7 +33,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.parametrize("part", range(PARTS))
+@pytest.mark.parametrize("part", some(range(PARTS)))
 def test_each_mutant_is_read_or_refused_with_a_place(folder: Path, part: int) -> None:
     problems: Counter[str] = Counter()
     count = without_line = 0

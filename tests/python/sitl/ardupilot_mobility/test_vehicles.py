@@ -79,6 +79,7 @@ def test_every_node_needs_a_vehicle(toy_copter):
     gc.collect()
 
 
+@pytest.mark.verify
 @pytest.mark.parametrize("old", [False, True])
 def test_a_ground_station_does_not_change_how_often_nodes_get_telemetry(toy_copter, monkeypatch, old):
     mavlink = load_dialect()

@@ -207,6 +207,7 @@ def test_a_viewer_that_pauses_and_never_reads_is_disconnected(server, monkeypatc
         assert server._running.wait(30)
 
 
+@pytest.mark.verify
 def test_a_hundred_clients_of_all_kinds_end_with_the_server(server):
     threads = threading.active_count()
     with ExitStack() as clients:
