@@ -10,6 +10,8 @@ FUZZ_SECONDS ?= 60
 MINUTES ?= 20
 # One more worker than processors: some tests wait.
 WORKERS := $(shell echo $$(($$(nproc) + 1)))
+# Not empty if `make test` measures coverage: from Python 3.12 on, that costs little.
+MEASURES = $(if $(ONLY),,$(shell $(BIN)/python -c 'import sys; print("yes" * (sys.version_info >= (3, 12)))'))
 # Of `make test-cpp`: a filter of GoogleTest; of `make test-python`: what pytest takes. All tests, if nothing is said.
 ONLY ?=
 
@@ -41,11 +43,13 @@ test-cpp: $(STAMPS)/build system-gtest  ## C++ tests under AddressSanitizer and 
 	cmake --build build/asan
 	$(if $(ONLY),build/asan/netsim_tests --gtest_brief=1 --gtest_filter='$(ONLY)',ctest --test-dir build/asan --parallel --output-on-failure --no-tests=error)
 
-test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel; some: ONLY='FILE -k NAME'.
-	$(BIN)/python -m pytest $(if $(ONLY),$(ONLY),--numprocesses=$(WORKERS) --dist=loadfile)
+test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel, with their coverage from Python 3.12 on; some: ONLY='FILE -k NAME'.
+	$(if $(MEASURES),COVERAGE_CORE=sysmon) $(BIN)/python -m pytest \
+	  $(if $(ONLY),$(ONLY),--numprocesses=$(WORKERS) --dist=loadfile $(if $(MEASURES),--cov --cov-report=))
+	$(if $(MEASURES),@echo "Lines that the tests reach: $$($(BIN)/coverage report --format=total) %")
 
-coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and the share of lines that they reach; takes long.
-	$(BIN)/python -m pytest --numprocesses=$(WORKERS) --dist=loadfile --cov --cov-report=term:skip-covered
+coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and for each file the lines that they do not reach.
+	$(BIN)/python -m pytest --numprocesses=$(WORKERS) --dist=loadfile --cov --cov-report=term-missing:skip-covered
 
 test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays, in Chromium.
 	$(BIN)/python -m pytest tests/viewer --numprocesses=auto --dist=worksteal

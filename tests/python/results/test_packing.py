@@ -4,6 +4,7 @@ import signal
 import sqlite3
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -83,7 +84,7 @@ def test_new_and_changed_files_are_added(tmp_path: Path) -> None:
     write(tmp_path, 2)
     assert pack(tmp_path, file, remove=True) == 2
     assert heard(tmp_path) == [1, 55, 1]
-    with sqlite3.connect(file) as connection:
+    with closing(sqlite3.connect(file)) as connection:
         for table in ("run", "runAttr", "scalar", "packedRun", "packedText"):
             (count,) = connection.execute(f"SELECT count(DISTINCT runId) FROM {table}").fetchone()
             assert count == 3
