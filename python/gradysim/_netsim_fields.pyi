@@ -203,6 +203,9 @@ class RadioFields:
     """Lowest power of the frame."""
     preamble_duration_s: float
     """How long a radio listens before it decides."""
+    lost_header_frees_channel: bool
+    """Whether a radio that loses a PHY header takes the channel to be free, though frames in the air
+    have the energy to make it busy; only snirMode "chunks" loses headers."""
     frame_capture: str
     """Whether a stronger frame can replace one whose reception has begun; "": never."""
     capture_margin: float

@@ -62,6 +62,11 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(RadioConfig, preamble_duration_s), "receiver.preambleDetection.duration",
      quantity("s").shown_in("us").at_least(1e-12).at_most(1), "how long a radio listens before it decides",
      with_preamble_detection},
+    {NETSIM_FIELD(RadioConfig, lost_header_frees_channel),
+     "receiver.preambleDetection.lostHeaderFreesChannel", boolean(),
+     "whether a radio that loses a PHY header takes the channel to be free, though frames in the air have the"
+     " energy to make it busy; only snirMode \"chunks\" loses headers",
+     with_preamble_detection},
     {NETSIM_FIELD(RadioConfig, frame_capture), "receiver.frameCapture.typename", one_of(frame_capture_names),
      "Whether a stronger frame can replace one whose reception has begun; \"\": never"},
     {NETSIM_FIELD(RadioConfig, capture_margin), "receiver.frameCapture.margin", ratio().at_least(1),

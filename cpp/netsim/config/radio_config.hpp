@@ -51,6 +51,7 @@ struct RadioConfig {
     double preamble_threshold = 2.5118864315095801;            // 4 dB
     double preamble_minimum_power_w = 6.3095734448019329e-12;  // -82 dBm
     double preamble_duration_s = 4e-6;
+    bool lost_header_frees_channel = false;  // as in ns-3
 
     std::string frame_capture;                   // "": none
     double capture_margin = 3.1622776601683795;  // 5 dB

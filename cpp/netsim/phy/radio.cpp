@@ -74,6 +74,7 @@ void Radio::arrival_started(const Arrival& arrival) {
     present_.add({arrival.transmission, arrival.power_w});
     if (arrival.lockable) {
         if (transmitting_ || turned_) {
+            ignores_energy_ = false;
             book(*arrival.transmission, FrameFate::receiver_transmitting);
         } else if (!present_.is_locked()) {
             begin_reception(arrival);
@@ -83,6 +84,7 @@ void Radio::arrival_started(const Arrival& arrival) {
             listener_->frame_corrupted();
             begin_reception(arrival);
         } else {
+            began_in_header_ = began_in_header_ || is_receiving_header();
             book(*arrival.transmission, FrameFate::receiver_locked);
         }
     }
@@ -105,6 +107,7 @@ void Radio::end_detection(const Transmission* transmission) {
     NETSIM_ASSERT(ended != candidates_.end());
     const Arrival arrival = ended->arrival;
     candidates_.erase(ended);
+    ignores_energy_ = false;
     const bool is_strongest = std::ranges::none_of(
         candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
     const auto snir = [&] {
@@ -139,6 +142,7 @@ void Radio::drop_candidates(FrameFate fate) {
 
 void Radio::lock_on(const Arrival& arrival) {
     present_.lock_on(arrival.transmission);
+    began_in_header_ = false;
     if (model_.frame_capture.is_on() || model_.by_chunks) {
         locked_arrival_ = arrival;
     }
@@ -158,6 +162,7 @@ void Radio::end_header() {
     has_lost_header_ = true;
     listener_->frame_corrupted();
     has_lost_header_ = false;
+    ignores_energy_ = model_.preamble_detection.frees_channel() && !began_in_header_;
     update_busy();
 }
 
@@ -257,6 +262,11 @@ FrameFate Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
     return FrameFate::noise;
 }
 
+bool Radio::is_receiving_header() const {
+    return model_.preamble_detection.frees_channel() && simulator().is_pending(header_end_) &&
+           simulator().now() >= period_of(FramePart::header, locked_arrival_).start;
+}
+
 bool Radio::header_survives() {
     InterferenceSum& interference =
         interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
@@ -292,7 +302,7 @@ void Radio::book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* i
 
 void Radio::update_busy() {
     bool busy = transmitting_ || reports_ || present_.is_locked();
-    if (!busy && !present_.empty()) {
+    if (!busy && !present_.empty() && !ignores_energy_) {
         double energy_w = model_.reception.noise_w;
         busy = energy_w >= model_.energy_detection_w;
         for (const PresentArrival& present : present_.all()) {

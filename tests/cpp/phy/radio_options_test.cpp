@@ -249,6 +249,55 @@ TEST_F(RadioWithChunks, AFrameThatEndsWithItsHeaderIsDecided) {
     EXPECT_EQ(count(FrameFate::delivered), 1U);
 }
 
+// A frame whose header is lost to a stronger one, which goes on.
+class RadioThatLosesAHeader : public RadioOptions {
+protected:
+    RadioThatLosesAHeader() {
+        config.preamble_detection = "ThresholdPreambleDetection";
+        config.snir_mode = "chunks";
+        config.energy_detection_w = strong_w / 2;
+        config.lost_header_frees_channel = true;
+        arrives(strong_w, us(100));
+    }
+    const std::vector<SimTime>& times_free() {
+        free_ = receiver().log.times_of(RadioWord::free);
+        return free_;
+    }
+
+private:
+    std::vector<SimTime> free_;
+};
+
+TEST_F(RadioThatLosesAHeader, TakesTheChannelToBeFree) {
+    arrives(100 * strong_w, us(110));
+    air.run();
+    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(times_free(), std::vector{us(120)});
+}
+
+TEST_F(RadioThatLosesAHeader, SensesWhatBeganWithinTheHeader) {
+    arrives(100 * strong_w, us(117));
+    air.run();
+    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(times_free(), std::vector{us(317)});
+}
+
+TEST_F(RadioThatLosesAHeader, SensesAllOnceItHasListenedToAnotherFrame) {
+    arrives(100 * strong_w, us(110));
+    arrives(strong_w, us(200), us(10));
+    air.run();
+    EXPECT_EQ(receiver().log.times_of(RadioWord::busy), (std::vector{us(104), us(204)}));
+    EXPECT_EQ(times_free(), (std::vector{us(120), us(310)}));
+}
+
+TEST_F(RadioThatLosesAHeader, SensesAllIfAFrameBeginsWhileItTransmits) {
+    arrives(100 * strong_w, us(110));
+    arrives(strong_w, us(160), us(10));
+    air.at(us(150), [this] { receiver().send(us(20)); });
+    air.run();
+    EXPECT_EQ(times_free(), (std::vector{us(120), us(310)}));
+}
+
 TEST(RadioNoise, ThermalNoiseIsAPropertyOfTheReceiver) {
     MediumConfig medium;
     medium.background_noise = "ThermalNoise";

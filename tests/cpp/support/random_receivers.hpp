@@ -20,6 +20,7 @@ inline RandomScenario with_random_receivers(RandomScenario scenario) {
         radio.preamble_duration_s = longest_detection_s * (0.001 + draws.uniform());
         radio.frame_capture = chance(0.3) ? "SimpleFrameCapture" : "";
         radio.snir_mode = chance(0.3) ? "chunks" : "min";
+        radio.lost_header_frees_channel = chance(0.5);
     }
     return scenario;
 }
