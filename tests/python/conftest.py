@@ -56,9 +56,10 @@ settings.load_profile("any machine")  # a busy machine must not make a test fail
 
 
 @pytest.fixture(autouse=True, scope="session")
-def ctrl_c() -> None:
-    """Make Ctrl-C interrupt also if the tests run in the background, where it is ignored at first."""
+def stopping_signals() -> None:
+    """Make Ctrl-C and SIGHUP stop commands also in the background and under nohup, where they are ignored."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 @pytest.fixture
