@@ -13,7 +13,6 @@ from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.ini import read_ini
 from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.sections import config_names
-from python.thorough import some
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference
 
@@ -31,17 +30,15 @@ FILES = {
 MODES = {"integrated": gradysim.integrated.run.run, "prototype": gradysim.prototype.run.run}
 
 
-def runnable() -> dict[str, list[str]]:
-    """Return the configurations of each file that run by themselves."""
-    return {
-        file.stem: [
-            config
-            for config in dict.fromkeys(("General", *config_names(read_ini(file))))
-            if config not in BASES and (config != "General" or file.stem not in COMPLETED)
-        ]
+def runnable() -> list[tuple[str, str]]:
+    """Return all configurations that run by themselves."""
+    return [
+        (file.stem, config)
         for file in sorted(FOLDER.glob("*.ini"))
         if "sim-time-limit" in file.read_text()  # other files are only included
-    }
+        for config in dict.fromkeys(("General", *config_names(read_ini(file))))
+        if config not in BASES and (config != "General" or file.stem not in COMPLETED)
+    ]
 
 
 @cache
@@ -53,14 +50,11 @@ def short_run(name: str, config: str) -> Scenario:
 
 
 def test_every_comparison_has_its_file() -> None:
-    assert runnable().keys() == FILES
+    assert {name for name, _ in runnable()} == FILES
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize(
-    ("name", "config"),
-    [case for name, configs in runnable().items() for case in some((name, config) for config in configs)],
-)
+@pytest.mark.parametrize(("name", "config"), runnable())
 def test_it_runs(name: str, config: str, mode: str) -> None:
     scenario = short_run(name, config)
     run: Callable[[Scenario], RunResult] = MODES[mode]

@@ -156,7 +156,7 @@ TEST_P(RandomScenarios, MatchThePlainModelWithInterfacesOnOverlappingChannels) {
 class LightStepScenarios : public testing::TestWithParam<std::uint64_t> {};
 
 TEST_P(LightStepScenarios, MatchThePlainModel) {
-    expect_same_courses(GetParam(), 2, test::make_light_step_scenario);
+    expect_same_courses(GetParam(), 3, test::make_light_step_scenario);
 }
 
 class FarFlungScenarios : public testing::TestWithParam<std::uint64_t> {};

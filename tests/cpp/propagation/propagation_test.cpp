@@ -45,8 +45,8 @@ protected:
 };
 
 TEST_P(EveryPathLoss, NeverExceedsItsBounds) {
-    for (int i = 0; i < 5'000; ++i) {
-        if (i % 50 == 0) {
+    for (int i = 0; i < 20'000; ++i) {
+        if (i % 100 == 0) {
             test::draw_path_loss_parameters(config, draws);
         }
         const Propagation propagation(config, 1);
