@@ -152,6 +152,7 @@ wheels: $(STAMPS)/build $(STAMPS)/wheels $(STAMPS)/test system-qemu  ## Build wh
 release: | $(VENV)/bin/python  ## Run all checks and tests, build the wheels and tag a release: VERSION=1.0.0.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
 	$(MAKE) --no-print-directory lint test test-slow
+	$(BIN)/python -m pytest tests/verification --numprocesses=$(WORKERS) --dist=loadfile
 	VCS_VERSIONING_PRETEND_VERSION_FOR_GRADYSIM=$(VERSION) $(MAKE) --no-print-directory wheels
 	$(BIN)/python packaging/release.py tag "$(VERSION)"
 

@@ -204,8 +204,8 @@ class RadioFields:
     preamble_duration_s: float
     """How long a radio listens before it decides."""
     lost_header_frees_channel: bool
-    """Whether a radio that loses a PHY header takes the channel to be free, though frames in the air
-    have the energy to make it busy; only snirMode "chunks" loses headers."""
+    """Whether the channel counts as free after a lost PHY header, despite the energy of frames in the
+    air; needs snirMode "chunks"."""
     frame_capture: str
     """Whether a stronger frame can replace one whose reception has begun; "": never."""
     capture_margin: float

@@ -64,8 +64,8 @@ constexpr Field fields[] = {
      with_preamble_detection},
     {NETSIM_FIELD(RadioConfig, lost_header_frees_channel),
      "receiver.preambleDetection.lostHeaderFreesChannel", boolean(),
-     "whether a radio that loses a PHY header takes the channel to be free, though frames in the air have the"
-     " energy to make it busy; only snirMode \"chunks\" loses headers",
+     "whether the channel counts as free after a lost PHY header, despite the energy of frames in the air;"
+     " needs snirMode \"chunks\"",
      with_preamble_detection},
     {NETSIM_FIELD(RadioConfig, frame_capture), "receiver.frameCapture.typename", one_of(frame_capture_names),
      "Whether a stronger frame can replace one whose reception has begun; \"\": never"},

@@ -161,7 +161,7 @@ private:
     FrameFate decide_data(const Arrival& arrival, InterferenceSum*& cause);
     void book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
     bool header_survives();
-    // False without PreambleDetection::frees_channel, which alone needs it.
+    // Always false without PreambleDetection::frees_channel.
     bool is_receiving_header() const;
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
         return medium().interference_with(id_, arrival, period.start, period.end);
@@ -183,7 +183,7 @@ private:
     bool has_lost_header_ : 1 = false;
     bool reports_channel_ : 1 = true;
     bool ignores_energy_ : 1 = false;   // PreambleDetection::frees_channel
-    bool began_in_header_ : 1 = false;  // a frame, during the header of the one that is received
+    bool began_in_header_ : 1 = false;  // another frame, while this radio received a header
     bool watches_energy_ : 1 = true;    // except while it transmits
     std::uint32_t stream_;              // of its interface (InterfaceId)
     const RadioModel& model_;

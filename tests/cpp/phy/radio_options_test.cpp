@@ -204,6 +204,16 @@ TEST_F(RadioWithChunks, WithoutItsHeaderAFrameIsGivenUpAtOnce) {
     EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(120)});
 }
 
+TEST_F(RadioWithChunks, AfterALostHeaderTheEnergyOfOthersKeepsTheChannelBusy) {
+    config.preamble_detection = "ThresholdPreambleDetection";
+    config.energy_detection_w = strong_w / 2;
+    arrives(strong_w, us(100));
+    arrives(100 * strong_w, us(110));
+    air.run();
+    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(310)});
+}
+
 TEST_F(RadioWithChunks, InterferenceWithThePreambleAloneDoesNoHarm) {
     const NodeId sender = arrives(strong_w, us(100));
     arrives(100 * strong_w, us(101), us(15));
@@ -259,13 +269,7 @@ protected:
         config.lost_header_frees_channel = true;
         arrives(strong_w, us(100));
     }
-    const std::vector<SimTime>& times_free() {
-        free_ = receiver().log.times_of(RadioWord::free);
-        return free_;
-    }
-
-private:
-    std::vector<SimTime> free_;
+    std::vector<SimTime> times_free() { return receiver().log.times_of(RadioWord::free); }
 };
 
 TEST_F(RadioThatLosesAHeader, TakesTheChannelToBeFree) {
