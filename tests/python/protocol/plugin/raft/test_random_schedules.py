@@ -1,7 +1,7 @@
 """Safety and liveness over random schedules of all faults.
 
 The rules are checked after every event: see `Rules`. A crash keeps term, vote and log of a node and loses
-everything else. `make test` runs an eighth of the schedules, `make verify` the others. `RAFT_SCHEDULES=50000`
+everything else. `make test` runs an eighth of the schedules, `make test-slow` the others. `RAFT_SCHEDULES=50000`
 sets the number of each kind.
 """
 
