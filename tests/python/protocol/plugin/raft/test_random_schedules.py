@@ -1,8 +1,8 @@
 """Safety and liveness over random schedules of all faults.
 
 The rules are checked after every event: see `Rules`. A crash keeps term, vote and log of a node and loses
-everything else. `make test` runs an eighth of the schedules, `make test-slow` the others. `RAFT_SCHEDULES=50000`
-sets the number of each kind.
+everything else. `make test` runs an eighth of the schedules, `make test-slow` the others.
+`RAFT_SCHEDULES=50000` sets the number of each kind.
 """
 
 import os
