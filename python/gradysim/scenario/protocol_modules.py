@@ -73,6 +73,8 @@ class ModuleLoader:
         """Inside, the files of a folder can be imported. Each of them is loaded once by this loader.
 
         If they come `first`, files with names of the standard library are found, too, as by a script there.
+        No bytecode of them is stored: Python would also use it for a source of the same size that is edited
+        within the same second.
         """
         siblings = self._siblings.setdefault(folder, {})
         names = _module_names(folder)
@@ -84,9 +86,12 @@ class ModuleLoader:
             {name: module for name, module in siblings.items() if first or not _is_stdlib(name)}
         )
         sys.path.insert(0 if first else len(sys.path), str(folder))
+        before = sys.dont_write_bytecode
+        sys.dont_write_bytecode = True
         try:
             yield
         finally:
+            sys.dont_write_bytecode = before
             if str(folder) in sys.path:
                 sys.path.remove(str(folder))
             new = list(takewhile(lambda name: name != latest, reversed(sys.modules)))

@@ -2,6 +2,7 @@
 
 import gc
 import importlib
+import os
 import pickle
 import sys
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -109,6 +110,21 @@ def test_another_loader_loads_a_file_again(tmp_path: Path) -> None:
     thing = loader.load(file).THING
     assert loader.load(file).THING is thing
     assert ModuleLoader().load(file).THING is not thing
+
+
+def test_an_edit_within_a_second_that_keeps_the_size_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "dont_write_bytecode", False)
+    loaded = []
+    for value in (1, 2):
+        write(tmp_path, mobile=f"from sibling_x import VALUE\nOWN = {value}", sibling_x=f"VALUE = {value}")
+        for file in tmp_path.glob("*.py"):
+            os.utime(file, (1e9, 1e9))
+        module = ModuleLoader().load(tmp_path / "mobile.py")
+        loaded.append((module.OWN, module.VALUE))
+    assert loaded == [(1, 1), (2, 2)]
+    assert not sys.dont_write_bytecode
 
 
 def test_a_file_that_is_not_python_source_is_refused(tmp_path: Path) -> None:
