@@ -19,6 +19,8 @@ ONLY ?=
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export DEBIAN_FRONTEND := noninteractive
+# Otherwise Python and pytest would compile their files at each start.
+unexport PYTHONDONTWRITEBYTECODE
 
 cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
 python_packages := $(shell find python -name __init__.py)
@@ -71,12 +73,12 @@ torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUT
 
 lint: lint-python lint-cpp lint-files docs  ## All checks of style, types, layers and links: Python, C++, files of the repository, pages.
 
-lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, lint-imports, and the English of all files.
+lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, stubtest, lint-imports, and the English of all files.
 	ruff check $(python_checked)
 	ruff format --check $(python_checked)
 	mypy
 	lint-imports
-	python -m pytest -q --capture=no tests/python/house/test_english.py
+	python -m pytest -q --capture=no -m verify tests/python/house/test_english.py tests/python/integrated/test_stub.py
 
 lint-cpp: $(STAMPS)/build $(STAMPS)/lint system-gtest  ## clang-format, clang-tidy.
 	clang-format --dry-run -Werror $(cpp_checked)
@@ -233,5 +235,4 @@ $(STAMPS)/editable: pyproject.toml $(cpp_engine) $(if $(is_current),,again) | $(
 	$(call need,$(BIN)/python -c 'import os$(comma)sys$(comma)sysconfig; sys.exit(not os.path.exists(sysconfig.get_path("include") + "/Python.h"))',python3-dev)
 	$(BIN)/pip install --quiet --no-build-isolation --editable .
 	@echo $(python_packages) >$(STAMPS)/packages
-	@$(BIN)/python -m compileall -q python  # where PYTHONDONTWRITEBYTECODE is set, each start would do it
 	@touch $@

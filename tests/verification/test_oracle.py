@@ -31,7 +31,7 @@ def comparisons(make: Callable[[int], Case], count: int, folder: Path) -> Iterat
 @pytest.mark.parametrize(
     ("name", "make", "count", "thorough_count"),
     [
-        ("every frame at every radio of {} random networks", random_case, 200, 6000),
+        ("every frame at every radio of {} random networks", random_case, 100, 6000),
         ("the same in {} networks that meet thresholds exactly, at equal times", exact_case, 100, 2000),
     ],
     ids=["random", "exact"],

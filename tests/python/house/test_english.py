@@ -16,6 +16,8 @@ import pytest
 
 ProjectFiles = Callable[..., list[Path]]
 
+pytestmark = pytest.mark.verify
+
 MOST_WORDS_PER_SENTENCE = 16.0
 """The mean of a document and of all files of another kind."""
 

@@ -52,6 +52,7 @@ def test_the_script_flies(
     assert (folder / "ardupilot_mobility_report.csv").exists()
 
 
+@pytest.mark.verify
 def test_the_file_flies_the_same_in_both_modes(
     folder: Path, toy_copter: Callable[..., Path], code_blocks: CodeBlocks, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -68,6 +69,7 @@ def test_the_file_flies_the_same_in_both_modes(
         )
 
 
+@pytest.mark.verify
 def test_the_commands_run(
     folder: Path,
     toy_copter: Callable[..., Path],

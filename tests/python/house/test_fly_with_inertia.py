@@ -22,6 +22,7 @@ def page(saved: Callable[..., Path]) -> Path:
     return saved(GUIDE, python="square.py", ini="square.ini")
 
 
+@pytest.mark.verify
 def test_its_commands_print_and_draw_what_it_shows(
     page: Path, code_blocks: CodeBlocks, shell: Callable[[str, Path], str]
 ) -> None:

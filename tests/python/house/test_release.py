@@ -10,6 +10,8 @@ import pytest
 
 from python.git_command import git
 
+pytestmark = pytest.mark.verify
+
 NOTES = "### Added\n\n- Something.\n"
 IDENTITY = {
     f"GIT_{role}_{key}": value

@@ -51,6 +51,7 @@ def test_an_array_does_all_runs(code_blocks: CodeBlocks, shell: Shell, tmp_path:
     assert shell(commands, tmp_path).endswith(code_blocks(GUIDE, "text")[0])
 
 
+@pytest.mark.verify
 def test_a_share_and_what_is_missing_are_as_shown(code_blocks: CodeBlocks, shell: Shell, swarm: Path) -> None:
     for block in code_blocks(GUIDE, "console"):
         for step in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:

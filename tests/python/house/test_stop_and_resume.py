@@ -14,6 +14,7 @@ GUIDE = "docs/how-to/stop-and-resume.md"
 CodeBlocks = Callable[[str, str], list[str]]
 
 
+@pytest.mark.verify
 def test_the_missing_runs_are_resumed(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:

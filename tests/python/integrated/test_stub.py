@@ -1,4 +1,4 @@
-"""The stub of the compiled part matches its content."""
+"""The stub of the compiled part matches its content; `make lint` runs this file."""
 
 import os
 import re
@@ -6,12 +6,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 PACKAGE = Path(__file__).parents[3] / "python"
 
 OF_PYBIND11 = re.compile(r"metaclass differs|stub does not have \*args parameter")
 """Its metaclass has no name, and a class without a constructor has one that rejects all arguments."""
 
 
+@pytest.mark.verify
 def test_it_is_that_of_the_module(tmp_path: Path) -> None:
     said = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "gradysim._netsim", "--concise"],

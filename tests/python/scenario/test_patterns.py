@@ -148,7 +148,7 @@ def test_steps_grow_with_the_product_of_both_lengths_at_most(pattern: str, path:
 
 @pytest.mark.parametrize("stars", [1, 2, 3, 4, 5, 30, 400])
 def test_no_number_of_wildcards_takes_long(stars: int) -> None:
-    path = "a" * 2000
+    path = "a" * 500
     assert steps_of("*a" * stars + "*b", path) <= 20 + 6 * (2 * stars + 2) * len(path)
     assert not matches("*a" * stars + "*b", path)
     assert matches("*a" * stars + "*", path)

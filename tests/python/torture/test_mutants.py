@@ -22,7 +22,7 @@ from python.torture.mutants import check_mutant, link_sources
 
 COUNT = int(os.environ.get("GRADYSIM_MUTANTS", "300"))
 FIRST = int(os.environ.get("GRADYSIM_FIRST_MUTANT", "0"))
-PARTS = 4
+PARTS = 8
 MOST_WITHOUT_LINE = 0.01
 
 
