@@ -105,7 +105,7 @@ test-slow: build $(STAMPS)/test $(node_packages) system-chromium system-tshark  
 
 verify: build $(STAMPS)/test system-gtest test-slow  ## Compare with INET, ns-3 and closed forms; draws docs/verification; the tests that take long.
 	$(BIN)/python -m pytest tests/verification --verify
-	NETSIM_THOROUGHNESS=20 $(MAKE) --no-print-directory test-cpp
+	NETSIM_THOROUGHNESS=20 ASAN_OPTIONS=detect_stack_use_after_return=1 $(MAKE) --no-print-directory test-cpp
 
 bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals, and a profile by layer.
 	cmake -S cpp --preset bench --log-level=WARNING
