@@ -1,6 +1,7 @@
 // Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
-// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, screenshot, color}, or
+// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, picture, screenshot, color}, or
 // {file, beside} for a page with two replays, of which the first one gets a key. `values` are expressions.
+// With `picture`, `screenshot` or `color` it draws the page, which takes seconds.
 // `url` instead of `file`, the time `after` which to look, and `pause`, are for a run that goes on. Writes one object
 // to standard output.
 import { readFileSync } from "node:fs";
@@ -65,6 +66,10 @@ async function look() {
     asked.values ?? {},
   );
   said.scrolls_sideways = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
+  if (asked.picture || asked.screenshot || asked.color) await draw();
+}
+
+async function draw() {
   said.picture = (await page.locator("canvas.scene").screenshot()).toString("base64");
   const picture = await page.screenshot(asked.screenshot ? { path: asked.screenshot } : {});
   Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0]]));

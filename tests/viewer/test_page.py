@@ -68,7 +68,7 @@ def test_a_node_says_what_it_did_not_notice(zigzag, browser):
 
 @pytest.mark.parametrize("dark", some([False, True]))
 def test_it_is_quiet_and_not_blank(town, browser, dark):
-    said = browser(town, address="#t=0.7&node=drones[1]", dark=dark)
+    said = browser(town, address="#t=0.7&node=drones[1]", dark=dark, picture=True)
     assert said["console"] == []
     assert said["requests"] == []
     assert said["colors"] > 50
@@ -161,7 +161,7 @@ def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
     first, second = [frame for frame in begun if frames["node"][frame] == 0 or frame in noticed][:2]
     steps = [".", {"until": f"&frame={first}"}, ".", {"until": f"&frame={second}"}]
     follows = {"follows": "document.querySelector('button[title^=Follow]').ariaPressed"}
-    said = browser(reports, keys=["n", "PageDown", "f", "t", *steps, "a"], values=follows)
+    said = browser(reports, keys=["n", "PageDown", "f", "t", *steps, "a"], values=follows, picture=True)
     assert said["values"] == {"follows": "false"}
     # The same view, without lines drawn before the view changed.
     begun = sum(start_ns <= frames["time_ns"][second] for start_ns in frames["time_ns"])
@@ -169,7 +169,7 @@ def test_lines_stay_at_their_nodes_when_the_view_changes(reports, browser):
     time_s = frames["time_ns"][second] / 1e9
     away = ["PageUp", {"until": f"#t={int(time_s - 10)}"}, "PageDown", {"until": f"#t={int(time_s)}"}]
     choose = [{"click": f".frames button >> nth={row}"}, {"until": f"&frame={second}"}]
-    fresh = browser(reports, address=f"#t={time_s}&node=0", keys=["t", "a", *away, *choose])
+    fresh = browser(reports, address=f"#t={time_s}&node=0", keys=["t", "a", *away, *choose], picture=True)
     assert fresh["picture"] == said["picture"]
 
 
