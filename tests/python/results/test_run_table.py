@@ -139,6 +139,5 @@ def test_a_frame_without_pandas_names_the_extra(study: Path, monkeypatch: pytest
 
 
 def test_a_frame_of_pandas(study: Path) -> None:
-    pytest.importorskip("pandas")
     frame = runs(study).frame()
     assert frame.groupby(["mode", "jitter"], sort=False)["uavs[*] heard"].mean().to_list() == [1, 3, 1, 3]
