@@ -19,7 +19,7 @@ ONLY ?=
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export DEBIAN_FRONTEND := noninteractive
-# Otherwise Python and pytest would compile their files at each start.
+# Where it is set, Python and pytest compile their files at each start.
 unexport PYTHONDONTWRITEBYTECODE
 
 cpp_engine := $(shell find cpp -name '*.[ch]pp') cpp/CMakeLists.txt
