@@ -72,8 +72,8 @@ def find_breaking_level(
 def _explained(
     campaign: "Campaign", verdict: "Verdict", result_dir: Path, executor: "Executor"
 ) -> Iterator[str]:
+    from gradysim.ladder.explanation_words import explanation_sentences
     from gradysim.ladder.why import explain
-    from gradysim.ladder.words import explanation_sentences
     from gradysim.replay.reader import read_replay
 
     place, works, fails = verdict.place, verdict.works, verdict.fails

@@ -33,7 +33,7 @@ def desynchronize_timers(
     from gradysim.cli.console import console
     from gradysim.ladder.campaign import FailedRunError
     from gradysim.ladder.desync import desynchronize
-    from gradysim.ladder.words import desync_sentences
+    from gradysim.ladder.desync_words import desync_sentences
     from gradysim.scenario.errors import ConfigError
 
     try:
@@ -63,7 +63,7 @@ def curve_table(found: "Desync", metric: str | None) -> "Table":
     from rich import box
     from rich.table import Table
 
-    from gradysim.ladder.words import text_of_time
+    from gradysim.ladder.desync_words import text_of_time
 
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     for heading in ("jitter", "delivered", *([metric] if metric else ())):

@@ -6,7 +6,7 @@ import pytest
 
 from gradysim.ladder.campaign import Campaign, FailedRunError
 from gradysim.ladder.desync import desynchronize
-from gradysim.ladder.words import desync_sentences
+from gradysim.ladder.desync_words import desync_sentences
 
 
 def test_lock_step_timers_need_little_jitter(make_campaign: Callable[..., Campaign]) -> None:

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.explanation_words import explanation_sentences
 from gradysim.ladder.why import Explanation, explain
-from gradysim.ladder.words import explanation_sentences
 from gradysim.replay.reader import read_replay
 
 
