@@ -1,11 +1,12 @@
 import math
 import sys
+from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results.confidence_interval import mean_of, mean_with_half_width
+from gradysim.results.confidence_interval import mean_of, mean_with_half_width, ratio_bounds
 
 
 @pytest.mark.parametrize(
@@ -71,3 +72,54 @@ def test_a_mean_may_be_of_numbers_whose_sum_is_none(values: list[float], mean: f
 )
 def test_an_interval_may_be_of_huge_numbers(values: list[float], half_width: float) -> None:
     assert mean_with_half_width(values)[1] == half_width
+
+
+@pytest.mark.parametrize(
+    ("successes", "count", "error", "bounds"),
+    [
+        (0, 10, 0.025, (0, 0.3085)),
+        (1, 10, 0.025, (0.0025, 0.4450)),
+        (5, 10, 0.025, (0.1871, 0.8129)),
+        (10, 10, 0.05, (0.7411, 1)),
+        (0, 1, 0.5, (0, 0.5)),
+        (500_000, 1_000_000, 0.025, (0.49902, 0.50098)),
+    ],
+)
+def test_bounds_of_a_ratio_agree_with_tables(
+    successes: int, count: int, error: float, bounds: tuple[float, float]
+) -> None:
+    assert ratio_bounds(successes, count, error) == pytest.approx(bounds, abs=5e-5)
+
+
+def test_lower_bounds_of_a_million_trials_have_a_closed_form() -> None:
+    """The probability of the successes is ratio^n for n of n, and 1 - (1 - ratio)^n for at least 1 of n."""
+    count, error = 1_000_000, 0.025
+    one = -math.expm1(math.log1p(-error) / count)
+    assert ratio_bounds(count, count, error)[0] == pytest.approx(error ** (1 / count), rel=1e-12)
+    assert ratio_bounds(1, count, error)[0] == pytest.approx(one, rel=1e-8)
+
+
+@given(st.integers(1, 40), st.data(), st.floats(1e-9, 0.5))
+def test_at_a_bound_so_many_successes_have_the_probability_of_the_error(
+    count: int, data: st.DataObject, error: float
+) -> None:
+    successes = data.draw(st.integers(1, count))
+    ratio = Fraction(ratio_bounds(successes, count, error)[0])
+    terms = (math.comb(count, k) * ratio**k * (1 - ratio) ** (count - k) for k in range(successes, count + 1))
+    assert float(sum(terms)) == pytest.approx(error, rel=1e-9)
+
+
+@given(st.integers(1, 10_000), st.data(), st.floats(1e-9, 0.5))
+def test_bounds_of_failures_mirror_those_of_successes(count: int, data: st.DataObject, error: float) -> None:
+    successes = data.draw(st.integers(0, count))
+    low, high = ratio_bounds(successes, count, error)
+    assert 0 <= low <= successes / count <= high <= 1
+    assert ratio_bounds(count - successes, count, error) == pytest.approx((1 - high, 1 - low), abs=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("successes", "count", "error"), [(2, 1, 0.025), (-1, 1, 0.025), (0, 0, 0.025), (1, 2, 0), (1, 2, 0.6)]
+)
+def test_bounds_need_a_ratio_and_an_error(successes: int, count: int, error: float) -> None:
+    with pytest.raises(ValueError, match=f"got {successes} of {count} with error {error}"):
+        ratio_bounds(successes, count, error)
