@@ -142,6 +142,7 @@ class IntegratedRun(ScenarioRun):
             )
             provider.run_name = name
             provider.has_telemetry = spec.has_telemetry
+            provider.initial_position = spec.initial_position
             let_clock_drift(provider, spec.drift_rate)
             if tell_variable is not None:
                 watch_tracked_variables(provider, tell_variable)

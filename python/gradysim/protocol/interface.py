@@ -11,6 +11,7 @@ from typing import Any, Self, TypeGuard
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
+from gradysim.protocol.position import Position
 
 
 class IProvider(ABC):
@@ -21,11 +22,13 @@ class IProvider(ABC):
         run_name: `Study-#3.integrated` if the run is one of several of a configuration; otherwise empty. Use
             it in the names of files that a protocol writes, or the next run overwrites them.
         has_telemetry: Whether the node calls `IProtocol.handle_telemetry`.
+        initial_position: Where the node starts, (x, y, z) in meters, exactly; None if it is not known.
     """
 
     tracked_variables: dict[str, Any]
     run_name: str = ""
     has_telemetry: bool = True
+    initial_position: Position | None = None
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:

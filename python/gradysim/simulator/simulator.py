@@ -122,6 +122,7 @@ class Simulator:
         node.position = checked_point("the position of a node", position, ValueError)
         node.seed = self.seed
         node.protocol_encapsulator = PythonEncapsulator(node, **self._handlers)
+        node.protocol_encapsulator.provider.initial_position = node.position
         if self.prepare_node is not None:
             self.prepare_node(node)
         node.protocol_encapsulator.encapsulate(checked_protocol_class(protocol))

@@ -63,8 +63,9 @@ class MobilityLeaderConfiguration:
 class MobilityLeaderPlugin:
     """Broadcasts position and orientation of its node, and keeps the set of its followers.
 
-    Create it in `initialize` or later. The first broadcast comes one interval later, and not before the first
-    telemetry. The protocol does not get the answers of followers; it gets the broadcasts of other leaders.
+    Create it in `initialize` or later. The first broadcast comes one interval later. Before the first
+    telemetry, a leader that was created at time 0 broadcasts its initial position, and any other one is
+    silent. The protocol does not get the answers of followers; it gets the broadcasts of other leaders.
 
     Attributes:
         is_broadcasting: True; set it to False to pause the broadcasts.
@@ -85,16 +86,17 @@ class MobilityLeaderPlugin:
         )
         self._orientation = checked_orientation(configuration.initial_orientation)
         self._provider = protocol.provider
-        self._position: Position | None = None
         self._last_answer: dict[int, float] = {}
         self._warned = getattr(self._provider, "has_telemetry", True) is False
-        warn_without_telemetry(_logger, protocol, "a leader does not broadcast")
+        warn_without_telemetry(_logger, protocol, "a leader does not know where it flies")
         self.is_broadcasting = True
         dispatcher = create_dispatcher(protocol)
         dispatcher.register_handle_telemetry(self._handle_telemetry)
         dispatcher.register_handle_timer(self._handle_timer)
         dispatcher.register_handle_packet(self._handle_packet)
         now = time_of(self._provider)
+        initial_position = getattr(self._provider, "initial_position", None)
+        self._position: Position | None = initial_position if now == 0 else None
         self._clock = BroadcastClock(interval, jitter, now, stream_of(self._provider))
         self._provider.schedule_timer(BROADCAST_TIMER_TAG, self._clock.next(now))
 

@@ -6,6 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import gradysim.integrated.run
+import gradysim.prototype.run
 from gradysim.protocol.plugin import follow_mobility
 from gradysim.protocol.position import rotate_position_2d
 from gradysim.simulator.simulation import SimulationConfiguration
@@ -101,6 +103,38 @@ def test_followers_take_their_place_beside_the_leader(make_scenario, run_mode, k
     for follower in followers:
         assert follower.tracked_variables["leader"] == 0
         assert follower.position == pytest.approx((30, 30, 18))
+
+
+FIRST_BROADCAST = """
+import json
+from gradysim.protocol.plugin.follow_mobility import MobilityLeaderConfiguration, MobilityLeaderPlugin
+
+class Leader(Quiet):
+    def initialize(self):
+        MobilityLeaderPlugin(self, MobilityLeaderConfiguration(broadcast_jitter=0))
+
+class Hears(Quiet):
+    def handle_packet(self, message):
+        position = json.loads(message.partition(":")[2])["position"]
+        first = (self.provider.current_time(), position)
+        self.provider.tracked_variables.setdefault("first", first)
+"""
+
+
+@pytest.mark.parametrize("mode", [gradysim.integrated.run, gradysim.prototype.run])
+def test_the_first_broadcast_does_not_wait_for_telemetry(make_scenario, mode):
+    scenario = make_scenario(
+        FIRST_BROADCAST,
+        "sim-time-limit = 0.5s",
+        '*.leader.protocol.class = "protocols.py:Leader"',
+        "*.leader.mobility.initialX = 4m",
+        "*.leader.mobility.telemetryInterval = 1s",
+        "*.others.count = 1",
+        '*.others[*].protocol.class = "protocols.py:Hears"',
+    )
+    time_s, position = mode.run(scenario).nodes[1].tracked_variables["first"]
+    assert time_s == pytest.approx(0.02, abs=0.001)
+    assert position == [4, 0, 0]
 
 
 coordinates = st.floats(-50, 50)

@@ -92,7 +92,22 @@ def test_it_says_where_it_is_now(protocol):
     assert payloads(protocol)[0]["position"] == [9, 8, 7]
 
 
-def test_it_does_not_broadcast_before_the_first_telemetry(protocol, caplog):
+def test_it_says_where_it_started_before_the_first_telemetry(protocol):
+    protocol.provider.initial_position = POSITION
+    MobilityLeaderPlugin(protocol)
+    protocol.provider.pass_time(protocol, 0.03)
+    assert payloads(protocol)[0]["position"] == list(POSITION)
+
+
+def test_created_late_it_does_not_say_where_it_started(protocol):
+    protocol.provider.initial_position = POSITION
+    protocol.provider.now = 100.0
+    MobilityLeaderPlugin(protocol)
+    protocol.provider.pass_time(protocol, 101)
+    assert protocol.provider.sent == []
+
+
+def test_without_a_known_position_it_waits_for_telemetry(protocol, caplog):
     MobilityLeaderPlugin(protocol, MobilityLeaderConfiguration(broadcast_interval=0.5, broadcast_jitter=0))
     with caplog.at_level(logging.WARNING):
         protocol.provider.pass_time(protocol, 1)
