@@ -22,7 +22,7 @@ from gradysim.scenario.runs import (
 )
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import OPTIONS
-from gradysim.scenario.sections import entries_in_order, search_order, what_to_run_instead
+from gradysim.scenario.sections import check_not_abstract, entries_in_order, search_order, what_to_run_instead
 from gradysim.scenario.sweep import (
     REPETITION,
     depends_on_run,
@@ -112,6 +112,7 @@ class Study(Sequence[Scenario]):
         self._file = file = Path(file)
         ini = read_ini(file)
         self._sections = tuple(search_order(ini, config, levels))
+        check_not_abstract(ini, config)
         self._source = source = ini.sections[config].source
         written = lines = entries_in_order(read_overrides(file, overrides, names.overrides), self._sections)
         errors = ErrorCollector()
@@ -341,7 +342,8 @@ def runs_of(
 ) -> Sequence[tuple[int, int, Mapping[str, Any]]]:
     """Return number, repetition and values of iterations of each run of a configuration.
 
-    It needs neither nodes nor a time limit, and checks neither. Raises ConfigError.
+    It needs neither nodes nor a time limit, and checks neither. The configuration may be abstract. Raises
+    ConfigError.
     """
     sections = tuple(search_order(read_ini(Path(file)), config))
     overridden = read_overrides(Path(file), overrides, names.overrides)

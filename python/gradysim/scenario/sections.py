@@ -19,8 +19,7 @@ def search_order(ini: IniFile, config: str, levels: Sequence[str] = ()) -> list[
     The last level comes first.
 
     Raises:
-        ConfigError: The configuration or a level does not exist, the configuration is abstract, or its bases
-            cannot be ordered.
+        ConfigError: The configuration or a level does not exist, or its bases cannot be ordered.
     """
     for level in levels:
         if level not in ini.levels:
@@ -38,19 +37,23 @@ def search_order(ini: IniFile, config: str, levels: Sequence[str] = ()) -> list[
             expected=f"one of {', '.join(names)}",
             suggestion=nearest(config, names),
         )
-    section = ini.sections[config]
-    if (abstract := _own_option(section, "abstract")) and _is_true(abstract):
+    names = [name for name in _linearize(ini, config, (), {}) if name != GENERAL]
+    return [
+        *(ini.levels[level] for level in reversed(levels)),
+        *(ini.sections[name] for name in [*names, GENERAL]),
+    ]
+
+
+def check_not_abstract(ini: IniFile, config: str) -> None:
+    """Raise ConfigError if a configuration is abstract: its runs can be listed, but not started."""
+    abstract = _own_option(ini.sections[config], "abstract")
+    if abstract is not None and _is_true(abstract):
         heirs = [name for name in config_names(ini) if name != config]
         raise ConfigError(
             f"configuration `{config}` is abstract",
             abstract.source,
             expected=f"one of {', '.join(heirs) or 'those that extend it'}",
         )
-    names = [name for name in _linearize(ini, config, (), {}) if name != GENERAL]
-    return [
-        *(ini.levels[level] for level in reversed(levels)),
-        *(ini.sections[name] for name in [*names, GENERAL]),
-    ]
 
 
 def entries_in_order(overrides: Iterable[Entry], sections: Iterable[Section]) -> list[Entry]:

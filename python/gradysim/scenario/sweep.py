@@ -13,7 +13,6 @@ from functools import cached_property
 from itertools import chain
 from pathlib import Path
 
-from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
@@ -211,10 +210,6 @@ def _values(part: str, entry: Entry) -> Iterator[str]:
     elif _LIKE_A_RANGE.match(part):
         numbers = "expected plain numbers, and the unit behind the brace: `${10..60 step 10}m`"
         problem = f"`{part}` is not a range; {numbers}"
-    elif function := distribution_in(part):
-        inside = "expected the variable inside of the function: `uniform(0s, ${1, 5}s)`"
-        for_a_run = "a value of `${...}` is for a whole run"
-        problem = f"`{function}` draws the value of one parameter, and {for_a_run}; {inside}"
     if problem:
         raise ConfigError.at(entry.source, problem)
     yield part

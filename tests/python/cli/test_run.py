@@ -175,6 +175,15 @@ def test_runs_lists_the_values_of_iteration_variables(gradysim):
     ]
 
 
+def test_runs_lists_those_of_an_abstract_configuration(gradysim, folder):
+    with (folder / "test.ini").open("a") as file:
+        file.write("[Base]\nabstract = true\nrepeat = 2\n")
+    done = gradysim("runs", "test.ini", "-c", "Base")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout.splitlines() == ["Run 0: $repetition=0", "Run 1: $repetition=1"]
+    assert gradysim("run", "test.ini", "-c", "Base").returncode == 2
+
+
 def test_runs_lists_the_runs(gradysim):
     done = gradysim("runs", "test.ini", "-c", "Failing")
     assert done.returncode == 0

@@ -115,6 +115,14 @@ def test_a_variable_may_be_part_of_what_draws(folder: Any) -> None:
     assert len({*one, *other}) == 3
 
 
+def test_a_value_of_a_variable_may_draw(folder: Any) -> None:
+    folder.load("seed-set = 7\n*.uavs[*].mobility.initialX = ${5m, uniform(0m, 1km), 1m+uniform(0m, 1km)}\n")
+    fixed, drawn_once, shifted = map(places, load_scenarios(folder.ini))
+    assert fixed == [5, 5]
+    assert len(set(drawn_once)) == 2
+    assert shifted == pytest.approx([place + 1 for place in drawn_once])
+
+
 def test_repetitions_draw_other_values_by_a_function_that_a_variable_names(folder: Any) -> None:
     folder.load("repeat = 2\n*.uavs[*].mobility.initialX = ${uniform, normal}(0km, 1km)\n")
     scenarios = load_scenarios(folder.ini)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.ini import Entry, IniFile, Section, read_ini
-from gradysim.scenario.sections import config_names, search_order
+from gradysim.scenario.sections import check_not_abstract, config_names, search_order
 
 Write = Callable[..., Path]
 
@@ -102,8 +102,6 @@ def _section(name: str, bases: list[str]) -> Section:
         ("[A]\nextends = Bas\n[Base]\n", "A", 2, "Base"),
         ("[A]\nextends = B\n[B]\nextends = A\n", "A", 4, ""),
         ("[A]\nextends = A\n", "A", 2, ""),
-        ("[A]\nabstract = true\n[B]\nextends = A\n", "A", 2, ""),
-        ("[A]\nabstract = yes\n", "A", 2, ""),
         ("[A]\n[B]\nextends = A, A\n", "B", 3, ""),
         ("[A]\n[General]\nextends = A\n", "General", 3, ""),
     ],
@@ -113,12 +111,17 @@ def test_section_errors(write_ini: Write, text: str, config: str, line: int, sug
     assert (error.line, error.suggestion) == (line, suggestion)
 
 
+@pytest.mark.parametrize("text", ["[A]\nabstract = true\n[B]\nextends = A\n", "[A]\nabstract = yes\n"])
+def test_an_abstract_configuration_is_ordered_and_refused(write_ini: Write, text: str) -> None:
+    file = write_ini(text)
+    assert order_of(file, "A") == ["A", "General"]
+    with pytest.raises(ConfigError) as caught:
+        check_not_abstract(read_ini(file), "A")
+    assert caught.value.line == 2
+
+
 def test_abstract_is_not_inherited(write_ini: Write) -> None:
-    assert order_of(write_ini("[A]\nabstract = true\n[B]\nextends = A\n"), "B") == [
-        "B",
-        "A",
-        "General",
-    ]
+    check_not_abstract(read_ini(write_ini("[A]\nabstract = true\n[B]\nextends = A\n")), "B")
 
 
 def test_names_are_those_that_can_be_run(write_ini: Write) -> None:

@@ -119,7 +119,6 @@ def test_what_is_ignored_iterates_over_nothing() -> None:
         ["${x=1,2 ! runnumber}"],
         ["${x=1,2 ! x}"],
         ["${1,2 ! y}"],
-        ["${1s, uniform(0s, 5s)}"],
     ],
 )
 def test_mistakes(texts: list[str]) -> None:
