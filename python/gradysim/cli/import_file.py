@@ -50,7 +50,7 @@ def _rows(translation: "Translation", file: Path) -> "Iterator[str]":
         if outcome.entry is not None:
             source = outcome.entry.source
             place = str(source.line) if source.file == file else f"{source.file.name}:{source.line}"
-        yield f"{place:>5}  {outcome.action.value:8}  {_text(outcome)}".rstrip()
+        yield f"{place:>5}  {outcome.action.value:12}  {_text(outcome)}".rstrip()
 
 
 def _text(outcome: "Outcome") -> str:

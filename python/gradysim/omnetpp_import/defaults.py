@@ -4,12 +4,20 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from gradysim.omnetpp_import.lines import CLASS_TO_WRITE, Action, Outcome
 from gradysim.omnetpp_import.ned import NedNetwork, NedNode
-from gradysim.omnetpp_import.tables import DEFAULT_MOBILITY, DRAWN_BY_DEFAULT, NODE_TYPES, VALUES
+from gradysim.omnetpp_import.tables import (
+    DEFAULT_MOBILITY,
+    DRAWN_BY_DEFAULT,
+    NODE_TYPES,
+    NOT_MODELLED_NODES,
+    VALUES,
+)
 from gradysim.scenario.errors import BadValue
 from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, RECTANGLE
+from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, RECTANGLE, engine_key
 from gradysim.scenario.patterns import compile_pattern
+
+_MEDIA = engine_key("medium.typename").kind.names
 
 _SOME_OTHER = 999_999
 """Index of a node that only lines for all nodes match."""
@@ -20,7 +28,7 @@ def translated_lines(outcomes: Iterable[Outcome]) -> list[Entry]:
     return [
         Entry(key, text, outcome.entry.source)
         for outcome in outcomes
-        if outcome.entry
+        if outcome.entry and outcome.action is not Action.NOT_MODELLED
         for key, equals, text in [outcome.text.partition(" = ")]
         if equals
     ]
@@ -42,10 +50,18 @@ def defaults_of(
         if not _is_set(first, in_force):
             yield Outcome(Action.ADDED, None, f"*.{path} = {value}", f"default of {network.source}")
 
+    def not_modelled(path: str, typename: str, note: str) -> Outcome:
+        line = f'*.{path} = "{typename}"'
+        return Outcome(Action.NOT_MODELLED, None, line, f"default of {network.source}; {note}")
+
     medium = VALUES["radioMedium.typename"].get(network.medium, network.medium)
-    if medium:
+    if medium in _MEDIA:
         yield from default("radioMedium.typename", "radioMedium.typename", f'"{medium}"')
+    elif medium and not _is_set("radioMedium.typename", in_force):
+        yield not_modelled("radioMedium.typename", medium, f"expected one of {', '.join(_MEDIA)}")
     for node in network.nodes:
+        if node.type in NOT_MODELLED_NODES:
+            yield not_modelled(f"{node.written}.typename", node.type, NOT_MODELLED_NODES[node.type])
         if node.size in network.sizes:
             yield from default(node.size_key, node.size_key, network.sizes[node.size])
         for path, value in NODE_TYPES[node.type].items():

@@ -2,23 +2,29 @@
 
 import contextlib
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from fnmatch import fnmatchcase
 from pathlib import Path
 
 from gradysim.omnetpp_import.tables import (
+    AS_HERE,
     CLASS_NAMES,
     FILE_NAME,
     GEOGRAPHIC,
     LOCATION,
     NO_AREA,
     NO_MEANING,
+    NO_NODE_TYPE,
     NO_RADIO_TYPE,
+    NODE_TYPES,
+    NOT_MODELLED,
+    NOT_MODELLED_NODES,
     ORIGIN,
     PROTOCOL,
     RENAMED,
+    SCALAR_RADIOS,
     TO_WRITE,
     UNIT_DISK,
     UNIT_DISK_MEDIUM,
@@ -29,7 +35,7 @@ from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.expressions import ParameterContext, parse_value
 from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys import NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN
+from gradysim.scenario.keys import MOBILITY_KEYS, NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN
 from gradysim.scenario.lookup import is_ignored, is_option, read_scalar
 from gradysim.scenario.parameter_types import number_in
 from gradysim.scenario.patterns import Pattern, compile_pattern
@@ -44,6 +50,7 @@ class Action(Enum):
     RENAMED = "renamed"
     ADDED = "added"
     LEFT_OUT = "left out"
+    NOT_MODELLED = "not modelled"
     TO_WRITE = "to write"
 
 
@@ -54,7 +61,8 @@ class Outcome:
     Attributes:
         action: What was done.
         entry: The line of the file; None for one that the file does not have.
-        text: The line here, "" if there is none. For `TO_WRITE` the user completes it.
+        text: The line here, "" if there is none. For `TO_WRITE` the user completes it. For `NOT_MODELLED` it
+            is the line there.
         note: Why, or what for.
     """
 
@@ -66,7 +74,7 @@ class Outcome:
     @property
     def is_in_force(self) -> bool:
         """Whether the line is one of the translated file, and not a comment in it."""
-        return bool(self.text) and self.action is not Action.TO_WRITE
+        return bool(self.text) and self.action not in (Action.TO_WRITE, Action.NOT_MODELLED)
 
 
 _PART = re.compile(r"(?:\[[^\]]*\]|\{[^}]*\}|[^.\[{])+")
@@ -101,7 +109,7 @@ class LineTranslator:
             return _option(entry)
         parts = _PART.findall(entry.key)
         if is_ignored(entry):
-            return Outcome(Action.LEFT_OUT, entry, note="only OMNeT++ reads it")
+            return _left_out(entry, "only OMNeT++ reads it")
         if len(parts) == 2 and parts[1] in self._size_keys:
             return _renamed(entry, f"{parts[0]}.{self._size_keys[parts[1]]}")
         name = parts[-1]
@@ -110,7 +118,7 @@ class LineTranslator:
         if name in GEOGRAPHIC and parts[-2] == "mobility":
             return self._geographic(entry, ".".join(parts[:-1]), GEOGRAPHIC[name])
         if name.startswith("constraintArea") and not self._has_area:
-            return Outcome(Action.LEFT_OUT, entry, note=NO_AREA)
+            return _left_out(entry, NO_AREA)
         if outcome := _to_write(entry, ".".join(parts[:-1])) or _of_radio(entry):
             return outcome
         return self._parameter(entry, parts)
@@ -124,15 +132,15 @@ class LineTranslator:
                 return self._checked(entry, key, _with_values(entry.text, values))
         if _own_keys(entry, key):
             return self._checked(entry, key, entry.text)
-        modules = (re.split(r"[\[*{]", part)[0] for part in parts[1:])
-        reason = next((NO_MEANING[module] for module in modules if module in NO_MEANING), "")
-        return Outcome(Action.LEFT_OUT, entry, note=reason or "there is no such parameter")
+        return _without_counterpart(entry, parts)
 
     def _checked(self, entry: Entry, key: str, text: str) -> Outcome:
         """Return the outcome of a line with a key of this simulator: its value may not be one."""
         line = f"{key} = {text}"
         keys = _own_keys(entry, key)
         if wrong := _wrong_value(entry, key, text, keys):
+            if all(each.kind.names and each not in MOBILITY_KEYS for each in keys):  # one of some models
+                return _not_modelled(entry, wrong)
             return Outcome(Action.TO_WRITE, entry, f"{key} = ...", f"{text}: {wrong}")
         is_same = (key, text) == (entry.key, entry.text)
         return Outcome(Action.KEPT if is_same else Action.RENAMED, entry, line)
@@ -141,7 +149,7 @@ class LineTranslator:
         """Place a latitude, longitude or altitude relative to the origin of the scene."""
         target = f"{mobility}.{coordinate}"
         if not self._is_geographic(mobility):
-            return Outcome(Action.LEFT_OUT, entry, note="without coordinateSystemModule it had no effect")
+            return _left_out(entry, "without coordinateSystemModule it had no effect")
         unit = "m" if coordinate == "initialZ" else "deg"
         origin = self._of_scene(ORIGIN[coordinate], unit)
         try:
@@ -182,14 +190,14 @@ class LineTranslator:
         if name == "typename":
             protocol = unquoted(entry.text) if is_quoted(entry.text) else entry.text
             if protocol.startswith("Python"):
-                return Outcome(Action.LEFT_OUT, entry, note="another line names the class")
+                return _left_out(entry, "another line names the class")
             what = f"in Python, what {protocol} does"
             return Outcome(Action.TO_WRITE, entry, f"{node}.{CLASS_TO_WRITE}", what)
         if name not in (*CLASS_NAMES, FILE_NAME, LOCATION, PROTOCOL):
             note = "if it is an attribute of your class"
             return Outcome(Action.TO_WRITE, entry, f"{entry.key} = {entry.text}", note)
         if name != class_key or FILE_NAME not in python:
-            return Outcome(Action.LEFT_OUT, entry, note="part of `protocol.class`")
+            return _left_out(entry, "part of `protocol.class`")
         texts = {key: unquoted(other.text) for key, other in python.items() if is_quoted(other.text)}
         folders = [self._folder, texts.get(LOCATION, ".")]
         folders += [texts[PROTOCOL]] if class_key != PROTOCOL and PROTOCOL in texts else []
@@ -222,19 +230,54 @@ def _of_radio(entry: Entry) -> Outcome | None:
         if entry.key.endswith(f".{end}") and entry.text.strip('"') in values:
             return Outcome(Action.RENAMED, entry, f'*.radioMedium.typename = "{UNIT_DISK_MEDIUM}"')
     if entry.key.endswith((".radio.typename", ".radio[*].typename")):
-        return Outcome(Action.LEFT_OUT, entry, note=NO_RADIO_TYPE)
+        is_scalar = set(_values_in(entry.text)) <= SCALAR_RADIOS
+        return _left_out(entry, NO_RADIO_TYPE) if is_scalar else _not_modelled(entry, NO_RADIO_TYPE)
     return None
+
+
+def _without_counterpart(entry: Entry, parts: Sequence[str]) -> Outcome:
+    """Return the outcome of a line whose key does not exist here."""
+    values = set(_values_in(entry.text))
+    if len(parts) == 3 and parts[0] != "**" and parts[-1] == "typename":  # the type of a node
+        is_known = values <= NODE_TYPES.keys() - NOT_MODELLED_NODES.keys()
+        return _left_out(entry, NO_NODE_TYPE) if is_known else _not_modelled(entry, NO_NODE_TYPE)
+    names = [re.sub(r"[\[{].*", "", part) for part in parts[1:]]
+    if reason := _reason(names, NO_MEANING):
+        return _left_out(entry, reason)
+    reason = _reason(reversed(names), NOT_MODELLED)
+    if any(entry.key.endswith(f".{end}") and values <= as_here for end, as_here in AS_HERE.items()):
+        return _left_out(entry, reason or "it is so here")
+    return _not_modelled(entry, reason or "there is no such parameter")
+
+
+def _reason(names: Iterable[str], reasons: Mapping[str, str]) -> str:
+    """Return the reason for the first name that one of the patterns matches; "" if there is none."""
+    matches = (reason for name in names for pattern, reason in reasons.items() if fnmatchcase(name, pattern))
+    return next(matches, "")
+
+
+def _values_in(text: str) -> list[str]:
+    """Return the strings in a value, which may be an iteration; the value if it has none."""
+    return re.findall(r'"([^"]*)"', text) or [text]
+
+
+def _left_out(entry: Entry, note: str) -> Outcome:
+    return Outcome(Action.LEFT_OUT, entry, note=note)
+
+
+def _not_modelled(entry: Entry, note: str) -> Outcome:
+    return Outcome(Action.NOT_MODELLED, entry, f"{entry.key} = {entry.text}", note)
 
 
 def _option(entry: Entry) -> Outcome:
     if entry.key in (*OPTIONS, *SECTION_OPTIONS, NETWORK):
         return Outcome(Action.KEPT, entry, f"{entry.key} = {entry.text}")
     if is_ignored(entry):
-        return Outcome(Action.LEFT_OUT, entry, note="only OMNeT++ reads it")
+        return _left_out(entry, "only OMNeT++ reads it")
     for option, instead in REFUSED_OPTIONS.items():
         if fnmatchcase(entry.key, option):
-            return Outcome(Action.LEFT_OUT, entry, note=instead)
-    return Outcome(Action.LEFT_OUT, entry, note="there is no such option")
+            return _not_modelled(entry, instead)
+    return _not_modelled(entry, "there is no such option")
 
 
 def _renamed(entry: Entry, key: str, text: str = "") -> Outcome:

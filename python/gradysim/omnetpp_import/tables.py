@@ -99,78 +99,133 @@ VALUES: Final[Mapping[str, Mapping[str, str]]] = {
     "radioMedium.typename": {
         "RadioMedium": "Ieee80211ScalarRadioMedium",
         "Ieee80211RadioMedium": "Ieee80211ScalarRadioMedium",
-        "Ieee80211DimensionalRadioMedium": "Ieee80211ScalarRadioMedium",
     },
 }
 """{end of a key: {value: the value here}}."""
 
-# ---- lines that are left out -------------------------------------------------------------------------------
+# ---- lines that are left out, and what is not modelled -----------------------------------------------------
 
 _APPS = "the protocol of a node sends its messages"
-_ENERGY = "there are no energy models"
 _ADDRESSES = "nodes are addressed by their ids"
-_QOS = "there is no QoS, aggregation or block ACK"
-_MANAGEMENT = "all nodes are ad hoc"
 _SHOWN = "only OMNeT++ shows it"
-_QUEUES = "a node has one queue, `mac.dcf.channelAccess.pendingQueue.packetCapacity` long"
-_BEACONS = "there are no beacons, slots or schedules"
 
 NO_MEANING: Final[Mapping[str, str]] = {
     "app": _APPS,
     "numApps": _APPS,
     "packetName": _APPS,
+    "*Port": _APPS,
     "ipv4": _ADDRESSES,
     "ipv6": _ADDRESSES,
     "arp": _ADDRESSES,
     "configurator": _ADDRESSES,
-    "routingApp": _ADDRESSES,
-    "energyStorage": _ENERGY,
-    "energyGenerator": _ENERGY,
-    "energyManagement": _ENERGY,
-    "energyConsumer": _ENERGY,
-    "hasStatus": "nodes do not fail",
-    "failures": "there are no failure models",
-    "numFailures": "there are no failure models",
+    "networkConfiguratorModule": _ADDRESSES,
+    "netmaskRoutes": _ADDRESSES,
     "visualizer": _SHOWN,
+    "*Visualizer*": _SHOWN,
     "osgModel": _SHOWN,
-    "displayCommunicationRange": _SHOWN,
-    "displayInterferenceRange": _SHOWN,
+    "display*": _SHOWN,
     "initFromDisplayString": "positions are in the file",
+    "updateInterval": "the medium reads positions when it needs them",
     "coordinateSystemModule": "geographic positions became x, y and z",
-    "sceneHeading": "x is North",
-    "ground": "the ground is flat, at z = 0",
     "physicalEnvironmentModule": "obstacles are below `environment`",
+    "space*": "the scene has no borders",
     "waypointProximity": "it had no effect",
     "homeX": "it had no effect",
     "homeY": "it had no effect",
     "homeZ": "it had no effect",
     "startTime": "the protocol decides when it flies",
-    "vehicleType": "the autopilot is ArduCopter",
+    "planeSimulatorPath": "the autopilot is ArduCopter",
+    "roverSimulatorPath": "the autopilot is ArduCopter",
     "waitUntilReady": "a run begins when all autopilots are ready",
+    "sameTransmissionStartTimeCheck": "frames that start together collide",
+    "mediumLimitCache": "the medium finds its own limits",
+}
+"""{name of a module or of a parameter, with `*` for any letters: why it has no meaning here}."""
+
+_ENERGY = "there are no energy models"
+_FAILURES = "there are no failure models"
+_QOS = "there is no QoS, aggregation or block ACK"
+_MANAGEMENT = "all nodes are ad hoc"
+_BEACONS = "there are no beacons, slots or schedules"
+_FRAGMENTS = "there is no fragmentation"
+_SCALAR = "signals have one power, as with scalar"
+_ROUTES = "protocols forward messages, nodes do not"
+
+NOT_MODELLED: Final[Mapping[str, str]] = {
+    "energyStorage": _ENERGY,
+    "energyGenerator": _ENERGY,
+    "energyManagement": _ENERGY,
+    "energyConsumer": _ENERGY,
+    "hasStatus": _FAILURES,
+    "failures": _FAILURES,
+    "numFailures": _FAILURES,
+    "mac": "the MAC is DCF of 802.11, or CSMA/CA of 802.15.4",
     "hcf": _QOS,
     "qosStation": _QOS,
     "classifier": _QOS,
+    "queue": "a node has one queue, `mac.dcf.channelAccess.pendingQueue.packetCapacity` long",
     "mgmt": _MANAGEMENT,
     "agent": _MANAGEMENT,
     "mib": _MANAGEMENT,
-    "queue": _QUEUES,
-    "responseAckFrameBitrate": "ACKs have the rate that the standard says",
-    "sameTransmissionStartTimeCheck": "frames that start together collide",
-    "mediumLimitCache": "the medium finds its own limits",
     "numSlots": _BEACONS,
     "slotDuration": _BEACONS,
     "reservedMobileSlots": _BEACONS,
-    "fragmentationPolicy": "there is no fragmentation",
-    "fragmentationThreshold": "there is no fragmentation",
-    "signalAnalogRepresentation": "signals have one power, as with scalar",
-    "frequencyGains": "signals have one power, as with scalar",
-    "analogModel": "signals have one power, as with scalar",
-    "snirThresholdMode": "the lowest SNIR counts",
+    "fragmentationPolicy": _FRAGMENTS,
+    "fragmentationThreshold": _FRAGMENTS,
+    "frequencyGains": _SCALAR,
+    "signalAnalogRepresentation": _SCALAR,
+    "analogModel": _SCALAR,
+    "snir*Mode": "the lowest SNIR counts",
+    "powerSpectralDensity": "noise has a power, `radioMedium.backgroundNoise.power`",
+    "noiseSource": "there are no noise sources",
     "radioMediumModule": "there is one medium",
-    "forwarding": "protocols forward messages",
+    "responseAckFrameBitrate": "ACKs have the rate that the standard says",
+    "routing*": _ROUTES,
+    "*Routing": _ROUTES,
+    "forwarding": _ROUTES,
+    "ground": "the ground is flat, at z = 0",
+    "sceneHeading": "x is North",
+    "vehicleType": "the autopilot is ArduCopter",
 }
-"""{name of a module or of a parameter: why it has no meaning here}."""
+"""{name of a module or of a parameter, with `*` for any letters: what there is instead}.
 
+Some of them change nothing with the values in `AS_HERE`. Names that are not in these tables are not modelled.
+"""
+
+AS_HERE: Final[Mapping[str, set[str]]] = {
+    "hasStatus": {"false"},
+    "numFailures": {"0"},
+    "qosStation": {"false"},
+    "isBlockAckSupported": {"false"},
+    "msduAggregationPolicy.typename": {""},
+    "queue.typename": {"DropTailQueue"},
+    "mgmt.typename": {"Ieee80211MgmtAdhoc"},
+    "agent.typename": {""},
+    "signalAnalogRepresentation": {"scalar"},
+    "analogModel.typename": {"ScalarMediumAnalogModel", "ScalarAnalogModel"},
+    "snirThresholdMode": {"min"},
+    "ground.typename": {"FlatGround"},
+    "ground.elevation": {"0m"},
+    "sceneHeading": {"0deg"},
+    "vehicleType": {"1"},
+    "mac.typename": {"Ieee80211Mac", "Ieee802154NarrowbandMac"},
+}
+"""{end of a key: values with which a node does what it does here}."""
+
+SCALAR_RADIOS: Final = {
+    "Ieee80211Radio",
+    "Ieee80211ScalarRadio",
+    "Ieee802154NarrowbandRadio",
+    "Ieee802154NarrowbandScalarRadio",
+}
+
+NOT_MODELLED_NODES: Final[Mapping[str, str]] = {
+    "AccessPoint": _MANAGEMENT,
+    "ManetRouter": _ROUTES,
+}
+"""{type of a node in `NODE_TYPES`: what there is instead}."""
+
+NO_NODE_TYPE = "a node is a radio and a protocol, which forwards messages itself"
 NO_RADIO_TYPE = "the interface and the medium say what its radio is"
 NO_AREA = "nothing limits the area of such nodes"
 

@@ -3,7 +3,7 @@
 import os
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -25,7 +25,7 @@ class Translation:
     """A translated file.
 
     Attributes:
-        text: The file here. Lines that the user writes are comments in it.
+        text: The file here. Lines that the user writes, and those that are not modelled, are comments in it.
         outcomes: What was done: the lines of the file in their order, then those that it lacks.
     """
 
@@ -33,8 +33,9 @@ class Translation:
     outcomes: tuple[Outcome, ...]
 
     def counts(self) -> Counter[Action]:
-        """Return the number of lines by what was done with them."""
-        return Counter(outcome.action for outcome in self.outcomes)
+        """Return the number of lines by what was done with them, in the order of the actions."""
+        count = Counter(outcome.action for outcome in self.outcomes)
+        return Counter({action: count[action] for action in Action if count[action]})
 
 
 def translate(file: Path, folder: Path) -> Translation:
@@ -89,33 +90,15 @@ def _added(
             *defaults_of(network, entries, lines, in_force),
             *missing_classes(network, entries, lines),
         ]
-    for name, outcome in _time_limits(ini):
-        added[name].append(outcome)
-    return added
-
-
-def _time_limits(ini: IniFile) -> Iterator[tuple[str, Outcome]]:
-    """Yield a line for each configuration without a time limit, with its section."""
-    limit = Outcome(Action.TO_WRITE, None, "sim-time-limit = 600s", "when a run ends")
-    names = config_names(ini)
-    lacking = [
+    limited = {
         name
-        for name in names
-        if not any(
-            entry.key == "sim-time-limit" for section in search_order(ini, name) for entry in section.entries
-        )
-    ]
-    extended = {base for name in names for base in (section.name for section in search_order(ini, name)[1:])}
-    bases = [name for name in lacking if name in extended and name != GENERAL]
-    for name in bases:
-        note = "others extend it, and it has no time limit"
-        yield name, Outcome(Action.ADDED, None, "abstract = true", note)
-    if lacking == names:
-        yield GENERAL, limit
-        return
-    for name in lacking:
-        if name not in bases:
-            yield name, limit
+        for name, outcomes in by_section.items()
+        if any(each.is_in_force and each.text.startswith("sim-time-limit ") for each in outcomes)
+    }
+    if any(limited.isdisjoint(each.name for each in search_order(ini, name)) for name in config_names(ini)):
+        note = "without it a run does not end"
+        added[GENERAL].append(Outcome(Action.ADDED, None, "sim-time-limit = 600s", note))
+    return added
 
 
 def _leave_to_user(by_section: dict[str, list[Outcome]]) -> bool:
@@ -143,6 +126,6 @@ def _text(file: Path, ini: IniFile, by_section: dict[str, list[Outcome]]) -> str
 
 
 def _row(outcome: Outcome) -> str:
-    if outcome.action is Action.TO_WRITE:
-        return f"# to write: {outcome.text}  ({outcome.note})"
+    if not outcome.is_in_force:
+        return f"# {outcome.action.value}: {' '.join(outcome.text.splitlines())}  ({outcome.note})"
     return outcome.text.replace("\n", "\n    ")

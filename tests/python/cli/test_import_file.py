@@ -11,6 +11,7 @@ network = GradysNetwork
 repeat = 2
 *.numUAVs = 1
 *.quads[*].numApps = 1
+**.wlan[*].mac.typename = "XMac"
 include more.ini
 """
 
@@ -25,19 +26,22 @@ def file(tmp_path: Path) -> Path:
 def test_the_list(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["import", str(file), "-o", str(tmp_path / "here")]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[:5] == [
-        "    2  kept      network = GradysNetwork",
-        "    3  kept      repeat = 2",
-        "    4  renamed   *.numUAVs = 1 -> *.numQuads = 1",
-        "    5  left out  *.quads[*].numApps = 1  (the protocol of a node sends its messages)",
-        'more.ini:1  to write  *.quads[*].protocol.typename = "DadcaProtocol" -> *.quads[*].protocol.class ='
-        ' "FILE.py:CLASS"  (in Python, what DadcaProtocol does)',
+    assert lines[:6] == [
+        "    2  kept          network = GradysNetwork",
+        "    3  kept          repeat = 2",
+        "    4  renamed       *.numUAVs = 1 -> *.numQuads = 1",
+        "    5  left out      *.quads[*].numApps = 1  (the protocol of a node sends its messages)",
+        '    6  not modelled  **.wlan[*].mac.typename = "XMac"'
+        "  (the MAC is DCF of 802.11, or CSMA/CA of 802.15.4)",
+        'more.ini:1  to write      *.quads[*].protocol.typename = "DadcaProtocol" -> '
+        '*.quads[*].protocol.class = "FILE.py:CLASS"  (in Python, what DadcaProtocol does)',
     ]
-    assert lines[5] == (
-        '       added     *.radioMedium.typename = "Ieee802154NarrowbandScalarRadioMedium"'
+    assert lines[6] == (
+        '       added         *.radioMedium.typename = "Ieee802154NarrowbandScalarRadioMedium"'
         "  (default of GradysNetwork)"
     )
-    assert lines[-1].startswith(f"{tmp_path / 'here' / 'omnetpp.ini'}: 2 kept, 1 renamed, 1 left out, ")
+    counts = "2 kept, 1 renamed, 6 added, 1 left out, 1 not modelled, 3 to write"
+    assert lines[-1] == f"{tmp_path / 'here' / 'omnetpp.ini'}: {counts}"
 
 
 def test_the_file(file: Path, tmp_path: Path) -> None:
@@ -46,6 +50,7 @@ def test_the_file(file: Path, tmp_path: Path) -> None:
     assert text.startswith(
         "# From omnetpp.ini, by `gradysim import`.\n\n[General]\nnetwork = GradysNetwork\n"
     )
+    assert '\n# not modelled: **.wlan[*].mac.typename = "XMac"  (the MAC is DCF' in text
     assert '\n# to write: *.quads[*].protocol.class = "FILE.py:CLASS"  (in Python, what' in text
 
 

@@ -57,6 +57,15 @@ def test_all_defaults(translated: Translated) -> None:
     ]
 
 
+def test_what_is_not_modelled_of_a_network(translated: Translated) -> None:
+    ned = "network N { submodules: radioMedium: Ieee80211DimensionalRadioMedium; ap: AccessPoint; }"
+    outcomes = translated(HEAD, ned).outcomes
+    assert [each.text for each in outcomes if each.action is Action.NOT_MODELLED] == [
+        '*.radioMedium.typename = "Ieee80211DimensionalRadioMedium"',
+        '*.ap.typename = "AccessPoint"',
+    ]
+
+
 def test_random_starts(translated: Translated) -> None:
     lines = "**.initFromDisplayString = false\n*.base.mobility.initialY = 7m\n"
     lines += "".join(f"**.constraintArea{end} = 0m\n" for end in ("MinX", "MinY", "MaxX", "MaxY"))

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from gradysim.omnetpp_import import Action, Outcome
-from gradysim.omnetpp_import.tables import NO_MEANING
+from gradysim.omnetpp_import.tables import NO_MEANING, NO_NODE_TYPE, NO_RADIO_TYPE, NOT_MODELLED
 
 FirstOutcome = Callable[..., Outcome]
 
@@ -69,19 +69,56 @@ def test_renamed(outcome: FirstOutcome, before: str, after: str) -> None:
     [
         ("cmdenv-express-mode = true", "only OMNeT++ reads it"),
         ("*.visualizer.x.displayRoutes = true", "only OMNeT++ reads it"),
-        ("warmup-period = 1s", "results are of whole runs"),
-        ("no-such-option = 1s", "there is no such option"),
+        ("*.quads[*].wlan[0].radioVisualizer.antennaLobeStep = 1deg", NO_MEANING["visualizer"]),
+        ('**.arp.typename = "GlobalArp"', NO_MEANING["arp"]),
+        ("**.*Port = 1000", NO_MEANING["app"]),
+        ("*.quads[*].numFailures = 0", NOT_MODELLED["numFailures"]),
+        ('**.wlan[*].mac.typename = "Ieee80211Mac"', NOT_MODELLED["mac"]),
+        (
+            '*.radioMedium.signalAnalogRepresentation = ${"scalar"}',
+            NOT_MODELLED["signalAnalogRepresentation"],
+        ),
+        ('*.quads[*].typename = "AdhocHost"', NO_NODE_TYPE),
         ('*.quads[*].app[0].destAddresses = "quads[0]"', NO_MEANING["app"]),
-        ("*.sensor*.wlan[0].radio.energyConsumer.offPowerConsumption = 0mW", NO_MEANING["energyConsumer"]),
         ("*.quads[*].mobility.constraintAreaMinX = 0m", "nothing limits the area"),
         ('**.wlan[*].radio.typename = "Ieee80211ScalarRadio"', "say what its radio is"),
         ("*.quads[*].mobility.initialAltitude = 5m", "without coordinateSystemModule"),
-        ("*.quads[*].mobility.initialColor = 5", "there is no such parameter"),
     ],
 )
 def test_left_out(outcome: FirstOutcome, line: str, reason: str) -> None:
     found = outcome(line)
     assert (found.action, found.text) == (Action.LEFT_OUT, "")
+    assert reason in found.note
+
+
+@pytest.mark.parametrize(
+    ("line", "reason"),
+    [
+        ('**.wlan[*].mac.typename = "XMac"', NOT_MODELLED["mac"]),
+        ('**.wlan[*].mac.typename = ${"Ieee80211Mac", "BMac"}', NOT_MODELLED["mac"]),
+        ("*.host*.wlan[0].mac.ackTimeout = 300us", NOT_MODELLED["mac"]),
+        ("*.*.wlan[*].mac.hcf.isBlockAckSupported = true", NOT_MODELLED["hcf"]),
+        ('*.radioMedium.signalAnalogRepresentation = "dimensional"', NOT_MODELLED["frequencyGains"]),
+        ('*.radioMedium.typename = "Ieee80211DimensionalRadioMedium"', "expected one of"),
+        ('*.*.wlan[0].radio.typename = "Ieee80211DimensionalRadio"', NO_RADIO_TYPE),
+        ('*.*.wlan[0].radio.transmitter.frequencyGains = "left right"', NOT_MODELLED["frequencyGains"]),
+        ("*.radioMedium.backgroundNoise.powerSpectralDensity = -110dBmWpMHz", "noise has a power"),
+        ('*.radioMedium.pathLoss.typename = ${"TwoRayNewModel", "FreeSpacePathLoss"}', "expected one of"),
+        ("*.host*.wlan[0].radio.receiver.ignoreInterference = true", "there is no such parameter"),
+        ('*.source.wlan[*].radio.antenna.gains = "0 1"', "there is no such parameter"),
+        ("*.noiseSource.transmitter.power = 1mW", NOT_MODELLED["noiseSource"]),
+        ("*.sensor*.wlan[0].radio.energyConsumer.offPowerConsumption = 0mW", NOT_MODELLED["energyConsumer"]),
+        ("*.quads[*].numFailures = 1", NOT_MODELLED["numFailures"]),
+        ('*.host*.typename = "AodvRouter"', NO_NODE_TYPE),
+        ("*.coordinateSystem.sceneHeading = 90deg", "x is North"),
+        ("*.quads[*].mobility.initialColor = 5", "there is no such parameter"),
+        ("warmup-period = 1s", "results are of whole runs"),
+        ("no-such-option = 1s", "there is no such option"),
+    ],
+)
+def test_not_modelled(outcome: FirstOutcome, line: str, reason: str) -> None:
+    found = outcome(line)
+    assert (found.action, found.text, found.is_in_force) == (Action.NOT_MODELLED, line, False)
     assert reason in found.note
 
 

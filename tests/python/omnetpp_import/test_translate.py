@@ -67,18 +67,32 @@ def test_counts(translated: Translated) -> None:
     counts = translated(INI).counts()
     assert counts.total() == len(translated(INI).outcomes)
     assert counts[Action.TO_WRITE] == 0
+    assert list(counts) == [action for action in Action if action in counts]
 
 
-def test_a_base_without_a_time_limit_becomes_abstract(translated: Translated) -> None:
-    text = translated(INI).text
-    assert "abstract = true" in text[text.index("[Config Wifi]") : text.index("[Config Study]")]
+@pytest.mark.parametrize(
+    ("text", "count"),
+    [
+        ("[General]\n[Config A]\n[Config B]\nextends = A\n", 1),
+        ("[Config A]\n[Config B]\nextends = A\nsim-time-limit = 1s\n", 1),
+        ("[Config A]\nsim-time-limit = 1s\n[Config B]\nextends = A\n", 0),
+        ("[General]\nsim-time-limit = 1s\n[Config A]\n", 0),
+        ("[General]\nsim-time-limit = ${lost}\n", 1),
+    ],
+)
+def test_a_time_limit_is_added_below_all_others(translated: Translated, text: str, count: int) -> None:
+    found = translated(text)
+    added = [each.text for each in found.outcomes if each.action is Action.ADDED]
+    assert added == ["sim-time-limit = 600s"] * count
+    general = found.text.partition("[Config")[0]
+    assert general.count("\nsim-time-limit = 600s\n") == count
+    assert "abstract" not in found.text
 
 
-def test_time_limits_that_are_missing(translated: Translated) -> None:
-    everywhere = translated("[General]\n[Config A]\n[Config B]\nextends = A\n").text
-    assert everywhere.count("# to write: sim-time-limit") == 1
-    in_one = translated("[Config A]\n[Config B]\nsim-time-limit = 1s\n").text
-    assert "[Config A]\n# to write: sim-time-limit" in in_one
+def test_what_is_not_modelled_is_a_comment_of_one_line(translated: Translated) -> None:
+    found = translated('[General]\n**.wlan[*].mac.typename = ${"XMac",\n  "BMac"}\n')
+    assert '\n# not modelled: **.wlan[*].mac.typename = ${"XMac", "BMac"}  (' in found.text
+    assert found.counts()[Action.NOT_MODELLED] == 1
 
 
 def test_each_of_several_networks_has_its_own_defaults(translated: Translated) -> None:
