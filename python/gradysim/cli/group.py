@@ -18,11 +18,12 @@ from pathlib import Path
 
 from gradysim.cli.errors import report_crashes
 from gradysim.cli.execution import simulator
+from gradysim.cli.guardian import end_with
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import RunOptions
 from gradysim.cli.run_all import may_others_go_on
 from gradysim.cli.run_task import LineStart, Reported, RunTask, import_what_runs_use
-from gradysim.cli.runner import ForkExecutor, WorkerError, end_with
+from gradysim.cli.runner import ForkExecutor, WorkerError
 from gradysim.cli.runs import check
 
 

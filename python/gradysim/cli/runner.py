@@ -4,7 +4,6 @@ A forked process has the engine, the scenario and the protocols loaded. Nothing 
 """
 
 import contextlib
-import ctypes
 import gc
 import io
 import os
@@ -12,7 +11,6 @@ import pickle
 import shutil
 import signal
 import sys
-import threading
 import traceback
 from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator
@@ -23,17 +21,13 @@ from pathlib import Path
 from tempfile import TemporaryFile
 from typing import IO, Any, NoReturn, ParamSpec, TextIO, TypeVar
 
+from gradysim.cli.guardian import HAS_GUARDIANS, end, fork_guarded
 from gradysim.cli.interrupt import WATCHED, StopOnInterrupt
 
 P = ParamSpec("P")
 T = TypeVar("T")
 
 _WRITTEN_TO = (io.TextIOWrapper, io.BufferedWriter)
-
-_PR_SET_PDEATHSIG = 1
-"""Option of prctl(2): the signal that the kernel sends to a process when its parent dies."""
-
-_prctl = ctypes.CDLL(None).prctl if sys.platform == "linux" else None
 
 
 class WorkerError(Exception):
@@ -86,8 +80,9 @@ class ForkExecutor(Executor):
     """Calls each task in a separate forked process, `jobs` at a time.
 
     Tasks start in the order of submission. A process that dies fails its own task only. So does an exception,
-    whose traceback is printed. The return value of a task must fit into a pipe: 64 kB at most. Workers end
-    with this process. After Ctrl-C no task starts: pending tasks are canceled.
+    whose traceback is printed. The return value of a task must fit into a pipe: 64 kB at most. On Linux,
+    workers end with this process, and what tasks start ends with their worker. After Ctrl-C no task starts:
+    pending tasks are canceled.
 
     The output of tasks is captured if several print at once, or if the streams of this process are not files:
     see `RunFuture.printed`. If the system cannot fork, tasks are called in this process.
@@ -117,7 +112,7 @@ class ForkExecutor(Executor):
         while self._workers:
             pid, worker = self._workers.popitem()
             with contextlib.suppress(ProcessLookupError, ChildProcessError):
-                os.kill(pid, signal.SIGKILL)
+                end(pid)
                 os.waitpid(pid, 0)
             _finish(worker, -signal.SIGKILL)
 
@@ -161,8 +156,7 @@ class ForkExecutor(Executor):
                     self._workers[pid] = _Worker(future, theirs, printed)
                 ours.close()
             except OSError as error:  # too many processes or files, or a full disk
-                problem = f"the process cannot start: {error.strerror or error}"
-                future.set_exception(WorkerError(problem, None))
+                future.set_exception(_not_started(error))
             else:
                 files.pop_all()  # `_finish` closes them
 
@@ -170,9 +164,13 @@ class ForkExecutor(Executor):
         """Run as the worker: call the task, write its result or exception to a file, and exit."""
         code = 1
         try:
-            end_with(parent)
-            ident = threading.get_ident()
-            os.register_at_fork(after_in_child=partial(_end_with_worker, os.getpid(), ident))
+            if HAS_GUARDIANS:
+                try:
+                    fork_guarded(parent)
+                except OSError as error:
+                    pickle.dump(_not_started(error), worker.returned)
+                    worker.returned.flush()
+                    os._exit(0)
             if worker.printed:
                 _redirect(*worker.printed)
             self._interrupt.become_worker()
@@ -190,6 +188,10 @@ class ForkExecutor(Executor):
             os._exit(code)
 
 
+def _not_started(error: OSError) -> WorkerError:
+    return WorkerError(f"the process cannot start: {error.strerror or error}", None)
+
+
 def _finish(worker: _Worker, exit_code: int) -> None:
     """Pass on the result of a worker that has ended."""
     worker.future.printed = tuple(_content(file) for file in worker.printed)
@@ -197,7 +199,11 @@ def _finish(worker: _Worker, exit_code: int) -> None:
         os.set_blocking(pipe.fileno(), False)  # a child of the worker may hold the other end
         returned = pipe.read() if exit_code == 0 else None
     if returned:
-        worker.future.set_result(pickle.loads(returned))
+        value = pickle.loads(returned)
+        if isinstance(value, WorkerError):
+            worker.future.set_exception(value)
+        else:
+            worker.future.set_result(value)
     elif exit_code < 0:
         number = -exit_code
         name = signal.Signals(number).name if number in set(signal.Signals) else f"signal {number}"
@@ -246,24 +252,6 @@ def _open_files() -> list[io.IOBase]:
 def _flush(file: IO[Any] | io.IOBase) -> None:
     with contextlib.suppress(OSError, ValueError):  # a full disk, or a closed file
         file.flush()
-
-
-def end_with(parent: int) -> None:
-    """Kill this process when its parent dies. Linux only."""
-    if _prctl is not None:
-        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:  # it has already died
-            os._exit(1)
-
-
-def _end_with_worker(worker: int, thread: int) -> None:
-    """Kill a process that a callback forked when the worker ends. Linux only.
-
-    If it returns from the callback, it continues the run, and may wait for threads that it does not have. The
-    kernel sends the signal when the forking thread ends, so threads of the user are not affected.
-    """
-    if _prctl is not None and os.getppid() == worker and threading.get_ident() == thread:
-        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def keep_from_forks(files: Iterable[Path]) -> None:

@@ -1,5 +1,7 @@
 """Effect of Ctrl-C on a run."""
 
+import os
+
 from python.cli.command import PROTOCOL, both_modes, interrupt_endless_run, objects
 
 
@@ -34,7 +36,8 @@ def test_ctrl_c_stops_at_once_what_is_still_being_built(gradysim, mode):
 @both_modes
 def test_ctrl_c_as_a_run_comes_to_its_end_begins_no_other(gradysim, folder, mode):
     protocol = "import os\nfrom protocol import Quiet\nclass Last(Quiet):\n    def finish(self):\n"
-    (folder / "last.py").write_text(protocol + "        self.provider.get_id() or os.kill(os.getppid(), 2)\n")
+    stop = f"        self.provider.get_id() or os.kill({os.getpid()}, 2)\n"
+    (folder / "last.py").write_text(protocol + stop)
     name = ("--set", "*.uavs[*].protocol.class=last.py:Last")
     done = gradysim("run", "test.ini", "--mode", mode, "--json", *name)
     assert done.returncode == 130

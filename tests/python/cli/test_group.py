@@ -79,8 +79,9 @@ def test_it_ends_with_its_worker(group, folder):
     )
     began = folder / "began"
     (folder / "notes.py").write_text(
-        "import os\nfrom protocol import Talker\nclass Notes(Talker):\n    def initialize(self):\n"
-        f"        super().initialize()\n        open({str(began)!r}, 'w').write(str(os.getppid()))\n"
+        "import os\nfrom protocol import Talker\nGROUP = os.getpid()\n"
+        "class Notes(Talker):\n    def initialize(self):\n"
+        f"        super().initialize()\n        open({str(began)!r}, 'w').write(str(GROUP))\n"
     )
     endless = group(0, config="Endless", settings=('*.uavs[*].protocol.class="notes.py:Notes"',))
     worker = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, env=environment())

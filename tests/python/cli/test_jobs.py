@@ -21,6 +21,8 @@ import sys
 
 from protocol import Talker
 
+COMMAND = os.getpid()  # which imports this module
+
 
 class Endless(Talker):
     def initialize(self):
@@ -54,9 +56,8 @@ class EndsItself(Talker):
 class PressesCtrlCUntilItEnds(Talker):
     def handle_timer(self, timer):
         signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])  # which passes it on
-        command = os.getppid()
-        while os.getppid() == command:
-            os.kill(command, signal.SIGINT)
+        while True:
+            os.kill(COMMAND, signal.SIGINT)
             signal.sigtimedwait([signal.SIGUSR1], 10)
 
 
@@ -79,7 +80,7 @@ class PressesCtrlCAtItsEnd(WaitsForTheLast):
 
     def finish(self):
         if self.provider.get_id() == 0:
-            os.kill(os.getppid(), signal.SIGINT)
+            os.kill(COMMAND, signal.SIGINT)
 """
 
 
@@ -183,13 +184,17 @@ def test_an_exception_outside_of_protocols_is_told_with_its_traceback(gradysim, 
     assert "RuntimeError: no summary\nGeneral run 0: the process exited with status 1\n" in done.stderr
 
 
-def test_a_process_that_cannot_start_is_told(gradysim, monkeypatch):
-    forks = iter([os.fork])
+@pytest.mark.parametrize("fails_in", ["command", "guardian"])
+def test_a_process_that_cannot_start_is_told(gradysim, monkeypatch, fails_in):
+    command, forks, real_fork = os.getpid(), [], os.fork
 
     def fork():
-        for real_fork in forks:
-            return real_fork()
-        raise OSError(errno.EAGAIN, "too many processes")
+        process = "command" if os.getpid() == command else "guardian"
+        if process == "command":
+            forks.append(process)
+        if len(forks) == 2 and process == fails_in:
+            raise OSError(errno.EAGAIN, "too many processes")
+        return real_fork()
 
     monkeypatch.setattr(os, "fork", fork)
     done = gradysim("run", "test.ini", "--mode", "prototype", "--json", "-j", "2")

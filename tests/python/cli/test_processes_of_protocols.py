@@ -1,14 +1,17 @@
-"""Protocols that fork in a callback, or leave a running thread: one run, one result, one exit code."""
+"""Protocols that fork, start programs or leave a running thread: one run, one result, no process left."""
 
 import json
+import signal
+import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-from python.cli.command import both_modes, objects, run_gradysim
-from python.processes import wait_until
+from python.cli.command import both_modes, environment, objects, run_gradysim
+from python.processes import is_running, wait_until
 from python.thorough import some
+
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
 
 FORKS = """
 import os
@@ -61,15 +64,6 @@ class LeavesAThread(Talker):
 """
 
 
-def is_running(pid: int) -> bool:
-    """Return whether a process runs, and is not a zombie."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
-        return False
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
 @both_modes
 @pytest.mark.parametrize("jobs", some(["2", "1"]))
 @pytest.mark.parametrize("protocol", ["GoesOn", "GoesOnForEver", "FailsInTheChild", "LeavesAThread"])
@@ -95,3 +89,70 @@ def test_a_run_has_one_result_whatever_its_protocol_begins(gradysim, folder, mod
         assert [node["tracked_variables"] for node in ours["nodes"]] == [
             node["tracked_variables"] for node in theirs["nodes"]
         ]
+
+
+STARTS = """
+import os
+import signal
+import subprocess
+
+from protocol import Talker
+
+COMMAND = os.getpid()  # which imports this module
+PROGRAMS = (
+    "echo $$; exec sleep 97",
+    "exec setsid sh -c 'echo $$; exec sleep 97'",  # leaves its session
+    "(echo $(exec sh -c 'echo $PPID'); exec sleep 97) &",  # leaves its parent
+)
+
+
+class Starts(Talker):
+    def initialize(self):
+        super().initialize()
+        if self.provider.get_id() == 0:
+            with open("pids", "a") as file:
+                for program in PROGRAMS:
+                    subprocess.Popen(program, shell=True, stdout=file)
+            while len(open("pids").readlines()) < len(PROGRAMS):
+                pass
+            open("started", "w").close()
+            END
+"""
+STARTING = ("--mode", "prototype", "-r", "0", "--set", '*.uavs[*].protocol.class="starts.py:Starts"')
+
+
+def are_programs_running(folder):
+    """Return whether one of the programs runs that Starts has started."""
+    pids = [int(line) for line in (folder / "pids").read_text().split()]
+    assert len(pids) == 3
+    return any(map(is_running, pids))
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+@pytest.mark.parametrize(
+    ("end", "code"),
+    [("pass", 0), ("raise RuntimeError('spoilt')", 1), ("os._exit(0)", 1), ("os.kill(os.getpid(), 9)", 1)],
+)
+def test_programs_end_with_the_run(gradysim, folder, end, code, jobs):
+    (folder / "starts.py").write_text(STARTS.replace("END", end))
+    assert gradysim("run", "test.ini", "--jobs", jobs, *STARTING).returncode == code
+    assert not are_programs_running(folder)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+def test_programs_end_with_the_command(folder, number):
+    (folder / "starts.py").write_text(STARTS.replace("END", "pass"))
+    command = [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", *STARTING]
+    with subprocess.Popen(command, cwd=folder, env=environment(), stderr=subprocess.DEVNULL) as process:
+        wait_until(lambda: (folder / "started").exists())
+        assert are_programs_running(folder)
+        process.send_signal(number)
+    assert process.returncode == (-9 if number == signal.SIGKILL else 128 + number)
+    wait_until(lambda: not are_programs_running(folder), 1.0)
+
+
+def test_programs_end_when_the_time_is_over(folder):
+    (folder / "starts.py").write_text(STARTS.replace("END", "os.kill(COMMAND, signal.SIGALRM)"))
+    done = run_gradysim(folder, "run", "test.ini", "-c", "Endless", *STARTING, "--stop-after", "1h")
+    assert done.returncode == 5
+    assert not are_programs_running(folder)
