@@ -11,15 +11,16 @@
     gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
     gradysim import FILE.ini [-o DIR]
     gradysim pack DIR [-o FILE] [--remove] [--unpack]
+    gradysim verify DIR
     gradysim ladder FILE.ini [-c CONFIG] --metric QUANTITY ...
     gradysim bisect FILE.ini [-c CONFIG] --assert 'QUANTITY >= NUMBER' ...
     gradysim desync FILE.ini [-c CONFIG] ...
     gradysim keys [PATTERN] [--markdown]
     gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
 
-Exit codes: 0 success; 1 a protocol failed, or ended its process; 2 an error in the arguments or the .ini
-file, or an error of the system, such as a full disk; 3 another process computes a run; 4 a run needs more
-than --memory; 5 runs are missing; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
+Exit codes: 0 success; 1 a protocol failed, or ended its process, or `verify` found damage; 2 an error in the
+arguments or the .ini file, or an error of the system, such as a full disk; 3 another process computes a run;
+4 a run needs more than --memory; 5 runs are missing; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
 Each command has its own file in `gradysim.cli`.
 """
 
@@ -47,6 +48,7 @@ from gradysim.cli.plot import draw_figure
 from gradysim.cli.run import run
 from gradysim.cli.runs import list_runs
 from gradysim.cli.status import print_status
+from gradysim.cli.verify import verify_files
 from gradysim.cli.view import view
 
 if TYPE_CHECKING:
@@ -90,6 +92,7 @@ app.command(print_means, name="means")
 app.command(compare)
 app.command(draw_figure, name="plot")
 app.command(pack_results, name="pack")
+app.command(verify_files, name="verify")
 app.command(climb_ladder, name="ladder")
 app.command(desynchronize_timers, name="desync")
 app.command(find_breaking_level, name="bisect")

@@ -9,6 +9,8 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gradysim.results.file_checksum import has_checksum, verify_checksum
+from gradysim.results.pack import opened as opened_pack
 from gradysim.results.quantity import Names, name_filter
 
 if TYPE_CHECKING:
@@ -32,7 +34,8 @@ def read_scalars(paths: Paths, names: Names | None = None) -> list[Row]:
     with equal names the first is kept. `names` selects scalars, `"heard:last"` or
     `["heard:last", "position?:*"]`; None for all.
 
-    Raises OSError for a file that cannot be read, and ValueError for a file of another kind.
+    Raises OSError for a file that cannot be read and for a damaged pack, and ValueError for a file of another
+    kind.
     """
     return _rows(paths, "scalar", names, _values)
 
@@ -67,6 +70,18 @@ def recorded_modules(path: Path) -> set[str]:
             return {module for (module,) in connection.execute("SELECT DISTINCT moduleName FROM vector")}
     except (OSError, ValueError):
         return set()
+
+
+def check_structure(path: Path) -> None:
+    """Raise ValueError for a file of another kind or with damaged pages, and OSError if it cannot be read."""
+    with _opened(path) as connection:
+        ((found,),) = connection.execute("PRAGMA integrity_check(1)")
+        ((pages, size),) = connection.execute("SELECT * FROM pragma_page_count, pragma_page_size")
+        ((_,),) = connection.execute("SELECT runName FROM run")
+        if found != "ok":
+            raise ValueError(found)
+        if pages * size != path.stat().st_size:
+            raise ValueError("its last page is incomplete")
 
 
 def _rows(
@@ -144,14 +159,22 @@ def _number(value: float | None) -> float:
 
 @contextlib.contextmanager
 def _opened(path: Path) -> Iterator["sqlite3.Connection"]:
-    """Open a file read-only."""
+    """Open a file read-only. Raises OSError and ValueError, with its name, also for what the block raises."""
     import sqlite3
 
-    path.open("rb").close()  # raises an error with the reason, which SQLite does not give
+    if has_checksum(path):
+        with opened_pack(path) as connection:
+            yield connection
+        return
     connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
     try:
+        if connection.execute("SELECT 1 FROM sqlite_schema WHERE name LIKE 'packed%'").fetchall():
+            verify_checksum(path)
         yield connection
-    except sqlite3.Error as error:
-        raise ValueError(f"{path}: {error}; expected a file of OMNeT++'s results in SQLite") from error
+    except (OSError, MemoryError):
+        raise
+    except Exception as error:  # of SQLite, or about a value that it returned
+        reason = str(error) or type(error).__name__
+        raise ValueError(f"{path}: {reason}; expected a file of OMNeT++'s results in SQLite") from error
     finally:
         connection.close()

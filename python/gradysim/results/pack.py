@@ -3,12 +3,14 @@
 The packs of a directory are in its directory `packs`. OMNeT++'s tables have the runs and the numbers that
 `gradysim means` averages. Four more tables have the result files: `packedRun` and `packedConditions` what a
 `RunSummary` has, `packedText` the compressed files, and `packedDictionary` what they were compressed with. A
-pack is replaced as a whole, so it never changes while it is read.
+pack is replaced as a whole, so it never changes while it is read. It ends with a checksum of all that, which
+each process verifies before it reads anything else.
 """
 
 import contextlib
 import errno
 import json
+import os
 import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
@@ -16,6 +18,7 @@ from pathlib import Path
 from struct import Struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from gradysim.results.file_checksum import verify_checksum
 from gradysim.results.run_summary import Conditions, RunSummary
 
 if TYPE_CHECKING:
@@ -164,8 +167,11 @@ def stored_name(name: str) -> bytes:
 
 
 def name_of(stored: bytes) -> str:
-    """Return the name of a file in a pack."""
-    return stored.decode(errors="surrogateescape")
+    """Return the name of a file in a pack. Raises ValueError for a path, which might leave the directory."""
+    name = stored.decode(errors="surrogateescape")
+    if name != os.path.basename(name):
+        raise ValueError(f"expected the name of a file, got `{name}`")
+    return name
 
 
 class Compressor:
@@ -188,15 +194,20 @@ def unpacked(text: bytes, dictionary: bytes) -> bytes:
 
 @contextlib.contextmanager
 def opened(pack: Path) -> Iterator["sqlite3.Connection"]:
-    """Open a pack read-only. Raises OSError, with its name."""
+    """Open a pack read-only. Raises OSError, with its name, also for what the block raises."""
     import sqlite3
 
-    pack.open("rb").close()  # raises an error with the reason, which SQLite does not give
-    connection = sqlite3.connect(f"{pack.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
     try:
-        connection.create_function("unpacked", 2, unpacked, deterministic=True)
-        yield connection
-    except sqlite3.Error as error:
-        raise OSError(errno.EIO, f"it is not a pack, or damaged: {error}", str(pack)) from error
-    finally:
-        connection.close()
+        verify_checksum(pack)
+        connection = sqlite3.connect(f"{pack.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+        try:
+            connection.create_function("unpacked", 2, unpacked, deterministic=True)
+            yield connection
+        finally:
+            connection.close()
+    except (OSError, MemoryError):
+        raise
+    except Exception as error:  # of SQLite, or about a value that it returned
+        reason = str(error) or type(error).__name__
+        problem = f"not a pack, or damaged: {reason}; expected a copy, or pack the results again"
+        raise OSError(errno.EIO, problem, str(pack)) from error

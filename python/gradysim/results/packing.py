@@ -6,11 +6,13 @@ import json
 import os
 import shutil
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from hashlib import sha256
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gradysim.results.durable import replacing, unfinished_file
+from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp import TABLES as OMNETPP_TABLES
 from gradysim.results.omnetpp import RunIdentity, create_tables, insert_run, storable
 from gradysim.results.pack import (
@@ -52,13 +54,13 @@ def pack(directory: Path, file: Path, *, remove: bool = False) -> int:
     """Add the results of a directory to the pack `file`, and return how many are new or changed.
 
     The results in other packs of the directory are added, too. What the pack has already stays. It is
-    replaced as a whole or not at all. With `remove`, the JSON files that it has and the other packs are then
-    removed.
+    replaced as a whole or not at all. With `remove`, it is then read again. The JSON files that it has, byte
+    for byte, and the other packs are removed.
 
     Raises:
         RunLockedError: A run is being computed in the directory.
         ConfigError: A result file is damaged.
-        OSError: A file cannot be read or written.
+        OSError: A file cannot be read or written, or differs from what the pack has. Nothing is removed.
     """
     remove_left_over_files(directory)
     with all_runs_locked(directory):
@@ -68,11 +70,9 @@ def pack(directory: Path, file: Path, *, remove: bool = False) -> int:
         found = _newest([known, *map(packed_files, others)]) | loose
         changed = {name: state for name, state in found.items() if known.get(name) != state}
         added = _write(file, _contents(directory, changed, loose, others), directory)
-        if remove:
-            packed = packed_files(file) if file.exists() else {}
-            for name, state in loose.items():
-                if packed.get(name) == state:
-                    (directory / name).unlink()
+        if remove and file.exists():
+            for packed in _packed_copies(file, directory, loose, others):
+                packed.unlink()
             _remove(others)
     return added
 
@@ -80,28 +80,64 @@ def pack(directory: Path, file: Path, *, remove: bool = False) -> int:
 def unpack(directory: Path, packs: Iterable[Path], *, remove: bool = False) -> int:
     """Write the result files in packs into a directory, and return their number.
 
-    JSON files in the directory stay as they are. With `remove`, the packs are then removed. Raises
-    RunLockedError and OSError as `pack`.
+    JSON files in the directory stay as they are. With `remove`, the packs are then removed, if the directory
+    has all their results. Raises RunLockedError, ConfigError and OSError as `pack`.
     """
     packs = list(packs)
     with all_runs_locked(directory):
-        wanted = _newest(map(packed_files, packs))
-        for name in loose_files(directory):
-            wanted.pop(name, None)
-        count = len(wanted)
+        newest = _newest(map(packed_files, packs))
+        loose = loose_files(directory)
+        written: dict[str, bytes] = {}
         for each in packs:
             for name, state, content in packed_texts(each):
-                if wanted.get(name) == state:
+                if newest[name] == state and name not in loose and name not in written:
                     unfinished = unfinished_file(directory / name)
                     unfinished.write_bytes(content)
                     os.utime(unfinished, ns=(state.time_ns, state.time_ns))
                     unfinished.replace(directory / name)
-                    del wanted[name]
+                    written[name] = _digest(content)
         if remove:
             if hasattr(os, "sync"):
                 os.sync()  # once: a sync of each file takes milliseconds
+            for name in newest:
+                _check_unpacked(directory / name, written.get(name))
             _remove(packs)
-    return count
+    return len(written)
+
+
+def _check_unpacked(file: Path, digest: bytes | None) -> None:
+    """Raise OSError unless a file has what was written, or was there before with a result."""
+    content = file.read_bytes()
+    if digest is None and result_of(content, file) is None:
+        raise OSError(errno.EIO, "not a result; expected the one in the packs, which stay", str(file))
+    if digest not in (None, _digest(content)):
+        raise OSError(errno.EIO, "not what was unpacked; the packs stay", str(file))
+
+
+def _digest(content: bytes) -> bytes:
+    return sha256(content).digest()
+
+
+def _packed_copies(
+    file: Path, directory: Path, loose: Mapping[str, PackedFile], others: Iterable[Path]
+) -> list[Path]:
+    """Return the JSON files of a directory that a pack has, byte for byte.
+
+    Raises OSError if such a file differs, and if the pack lacks a result of other packs.
+    """
+    packed = {name: (state, _digest(content)) for name, state, content in packed_texts(file)}
+    copies = [name for name in loose if name in packed and packed[name][0] == loose[name]]
+    for name in copies:
+        if _digest((directory / name).read_bytes()) != packed[name][1]:
+            problem = f"not as it was packed in {file}; nothing was removed"
+            raise OSError(errno.EIO, problem, str(directory / name))
+    for each in others:
+        for name, state, content in packed_texts(each):
+            kept, digest = packed.get(name, (None, b""))
+            is_replaced = kept is not None and (kept == loose.get(name) or kept.time_ns > state.time_ns)
+            if not is_replaced and digest != _digest(content):
+                raise OSError(errno.EIO, f"its {name} is not in {file}; nothing was removed", str(each))
+    return [directory / name for name in copies]
 
 
 def _remove(packs: Iterable[Path]) -> None:
@@ -128,9 +164,11 @@ def _contents(
     """Yield the wanted result files: loose ones, then those in packs."""
     for name in sorted(wanted.keys() & loose.keys()):
         yield name, loose[name], (directory / name).read_bytes()
+    left = {name: state for name, state in wanted.items() if name not in loose}
     for each in packs:
         for name, state, content in packed_texts(each):
-            if name not in loose and wanted.get(name) == state:
+            if left.get(name) == state:
+                del left[name]
                 yield name, state, content
 
 
@@ -149,14 +187,17 @@ def _write(file: Path, contents: Iterable[Content], directory: Path) -> int:
     with replacing(file) as unfinished:
         if file.exists():
             shutil.copyfile(file, unfinished)
+            remove_checksum(unfinished)
         try:
             connection = sqlite3.connect(unfinished, isolation_level=None)
             try:
-                return _Writer(connection).add(chain([first], results))
+                added = _Writer(connection).add(chain([first], results))
             finally:
                 connection.close()
         except sqlite3.Error as error:
             raise OSError(errno.EIO, str(error), str(file)) from error
+        append_checksum(unfinished)
+        return added
 
 
 class _Writer:

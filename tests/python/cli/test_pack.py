@@ -105,7 +105,7 @@ def test_a_file_that_is_not_a_pack_is_an_error(gradysim):
     for command in ("means", "plot"):
         done = gradysim(command, "test.ini", *(("--y", "events", "-o", "a.svg") if command == "plot" else ()))
         assert done.returncode == MISTAKE
-        assert "test.ini: it is not a pack" in done.stderr
+        assert "test.ini: not a pack, or damaged: " in done.stderr
 
 
 COMPUTES = """

@@ -19,7 +19,7 @@ CodeBlocks = Callable[[str, str], list[str]]
 def test_its_commands_print_what_is_shown(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:
-    study, more, several, back = code_blocks(GUIDE, "sh")
+    study, more, several, back, verify = code_blocks(GUIDE, "sh")
     shown = [block.splitlines() for block in code_blocks(GUIDE, "text")]
     new, *commands = study.splitlines()
     shell(new, tmp_path)
@@ -39,3 +39,10 @@ def test_its_commands_print_what_is_shown(
     assert joined == "packed 40 new runs into all/packs/runs.sca, and removed packed JSON files"
     assert shell(back, tmp_path).splitlines() == shown[2]
     assert len(list((tmp_path / "results").glob("Study-*.json"))) == 40
+    assert shell(verify, tmp_path).splitlines() == shown[3]
+
+    run = "gradysim run swarm/swarm.ini -c Study -r 3 --result-dir results --quiet --pcap station"
+    shell(run, tmp_path)
+    capture = tmp_path / "results" / "Study-#3-station.pcap"
+    capture.write_bytes(capture.read_bytes()[:-1])
+    assert shell(f"{verify.strip()} || true", tmp_path).splitlines() == shown[4]

@@ -1,9 +1,13 @@
+import errno
 import json
+import sqlite3
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp_reader import read_scalars
 from gradysim.results.pack import (
     Compressor,
@@ -12,6 +16,7 @@ from gradysim.results.pack import (
     packed_bytes,
     packed_files,
     packed_summaries,
+    packed_texts,
     packs_of,
     unpacked,
 )
@@ -106,6 +111,54 @@ def test_another_file_is_an_error_that_names_it(tmp_path: Path) -> None:
     with pytest.raises(OSError, match="not a pack") as raised:
         packed_files(file)
     assert raised.value.filename == str(file)
+
+
+def change(pack: Path, statement: str) -> None:
+    remove_checksum(pack)
+    with closing(sqlite3.connect(pack, isolation_level=None)) as connection:
+        connection.execute(statement)
+
+
+def read_all(pack: Path, directory: Path) -> None:
+    packed_files(pack)
+    list(packed_summaries(pack, directory))
+    list(packed_texts(pack))
+
+
+def test_a_pack_without_a_checksum_is_an_error(tmp_path: Path) -> None:
+    file = packed(tmp_path, result())
+    change(file, "UPDATE packedRun SET seed = 8")
+    with pytest.raises(OSError, match="pack the results again") as raised:
+        packed_files(file)
+    assert (raised.value.errno, raised.value.filename) == (errno.EIO, str(file))
+    with pytest.raises(ValueError, match="checksum"):
+        read_scalars(file)
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "DROP TABLE packedRun",
+        "UPDATE packedRun SET fileName = 5",
+        "UPDATE packedRun SET fileName = CAST('../a.json' AS BLOB)",
+        "UPDATE packedRun SET conditionsId = 99",
+        "UPDATE packedRun SET numbers = x'00'",
+        "UPDATE packedRun SET numbers = 'text'",
+        "UPDATE packedRun SET leftOut = '{'",
+        "UPDATE packedConditions SET conditions = '[]'",
+        "UPDATE packedConditions SET conditions = CAST(x'ff' AS TEXT)",
+        "UPDATE packedConditions SET layout = 'text'",
+        "UPDATE packedDictionary SET text = x'00'",
+        "UPDATE packedText SET text = 5",
+    ],
+)
+def test_an_unexpected_value_is_an_error_that_names_the_pack(tmp_path: Path, statement: str) -> None:
+    file = packed(tmp_path, result())
+    change(file, statement)
+    append_checksum(file)
+    with pytest.raises(OSError, match="not a pack, or damaged") as raised:
+        read_all(file, tmp_path)
+    assert (raised.value.errno, raised.value.filename) == (errno.EIO, str(file))
 
 
 def test_texts_like_the_sample_are_small() -> None:

@@ -13,7 +13,7 @@ import pytest
 from gradysim.results.durable import unfinished_file
 from gradysim.results.files import read_run_file
 from gradysim.results.means import read_means
-from gradysim.results.pack import packed_files
+from gradysim.results.pack import packed_files, packed_texts
 from gradysim.results.packing import default_pack, pack, unpack
 from gradysim.results.result_dir import read_results, result_names
 from gradysim.results.run_lock import LOCK_FILE, RunLockedError, run_locked
@@ -119,6 +119,16 @@ def test_packs_of_several_machines_are_read_together_and_joined(tmp_path: Path) 
     assert heard(tmp_path) == [0, 1, 2]
 
 
+def test_a_copy_of_a_pack_adds_nothing(tmp_path: Path) -> None:
+    write(tmp_path, 0)
+    for name in ("a", "b"):
+        pack(tmp_path, tmp_path / "packs" / f"{name}.sca")
+    (tmp_path / "Study-#0.integrated.json").unlink()
+    assert pack(tmp_path, default_pack(tmp_path), remove=True) == 1
+    assert heard(tmp_path) == [1]
+    assert list((tmp_path / "packs").iterdir()) == [default_pack(tmp_path)]
+
+
 def test_of_two_packs_the_newer_result_counts(tmp_path: Path) -> None:
     for name, value, time_s in (("a", 55, 200), ("b", 1, 100)):
         os.utime(write(tmp_path / "share", 0, heard=value), (time_s, time_s))
@@ -126,6 +136,53 @@ def test_of_two_packs_the_newer_result_counts(tmp_path: Path) -> None:
     assert heard(tmp_path) == [55]
     unpack(tmp_path, [tmp_path / "packs" / "b.sca", tmp_path / "packs" / "a.sca"])
     assert heard(tmp_path) == [55]
+
+
+def test_a_file_that_differs_from_the_pack_is_not_removed(tmp_path: Path) -> None:
+    damaged, other = write(tmp_path, 0), write(tmp_path, 1)
+    pack(tmp_path, default_pack(tmp_path))
+    state = damaged.stat()
+    damaged.write_bytes(damaged.read_bytes().replace(b"1", b"2"))
+    os.utime(damaged, ns=(state.st_mtime_ns, state.st_mtime_ns))
+    with pytest.raises(OSError, match="nothing was removed") as raised:
+        pack(tmp_path, default_pack(tmp_path), remove=True)
+    assert raised.value.filename == str(damaged)
+    assert damaged.exists()
+    assert other.exists()
+
+
+def test_a_pack_with_another_result_of_the_same_time_is_not_removed(tmp_path: Path) -> None:
+    packs = [tmp_path / "packs" / f"{name}.sca" for name in ("a", "b")]
+    for value, file in enumerate(packs):
+        os.utime(write(tmp_path / "share", 0, heard=value), (100, 100))
+        pack(tmp_path / "share", file)
+    with pytest.raises(OSError, match="nothing was removed") as raised:
+        pack(tmp_path, default_pack(tmp_path), remove=True)
+    assert raised.value.filename == str(packs[1])
+    assert sorted(default_pack(tmp_path).parent.iterdir()) == [*packs, default_pack(tmp_path)]
+
+
+@pytest.mark.parametrize("content", ["{", '{"figure": "a.pdf"}'])
+def test_a_pack_stays_if_a_file_in_place_of_its_result_has_none(tmp_path: Path, content: str) -> None:
+    file = write(tmp_path, 0)
+    pack(tmp_path, default_pack(tmp_path), remove=True)
+    file.write_text(content)
+    with pytest.raises((ConfigError, OSError)):
+        unpack(tmp_path, [default_pack(tmp_path)], remove=True)
+    assert default_pack(tmp_path).exists()
+
+
+def test_a_pack_stays_if_the_disk_loses_what_was_unpacked(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = write(tmp_path, 0)
+    content = file.read_bytes()
+    pack(tmp_path, default_pack(tmp_path), remove=True)
+    monkeypatch.setattr(os, "sync", lambda: file.write_bytes(bytes(len(content))))
+    with pytest.raises(OSError, match="the packs stay") as raised:
+        unpack(tmp_path, [default_pack(tmp_path)], remove=True)
+    assert raised.value.filename == str(file)
+    assert [text for _, _, text in packed_texts(default_pack(tmp_path))] == [content]
 
 
 def test_other_files_stay(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
-from python.torture import clients, faults, kills, mutants, scenarios, signals
+from python.torture import clients, damage, faults, kills, mutants, scenarios, signals
 
 Once = Callable[[Random, Path], int]
 """Injects faults in an empty directory, and returns how often. An exception says what was lost."""
@@ -16,4 +16,5 @@ KINDS: dict[str, Once] = {
     "kills": kills.once,
     "signals": signals.once,
     "faults of the disk": faults.once,
+    "damaged packs": damage.once,
 }
