@@ -2,7 +2,7 @@ import math
 from array import array
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gradysim.results import read_scalars, read_vectors
@@ -10,6 +10,7 @@ from gradysim.results.omnetpp import RunIdentity, write_scalar_file, write_vecto
 from gradysim.results.omnetpp_reader import recorded_modules, run_attributes
 from gradysim.results.quantity import Scalar
 from gradysim.results.recorder import NodeRecorder, Vector
+from python.damage import damaged
 
 IDENTITY = RunIdentity(
     "A-0-20261123-05:00:00-7", {"mode": "prototype", "x": "an attribute"}, {"x": "2", "y": "3"}, ()
@@ -152,6 +153,30 @@ def test_a_file_of_another_kind_is_an_error(tmp_path, content):
     path.write_bytes(content)
     with pytest.raises(ValueError, match=r"A\.vec: .*; expected a file of OMNeT\+\+'s results in SQLite"):
         read_vectors(path)
+
+
+@pytest.fixture(scope="module")
+def contents(tmp_path_factory):
+    """Return the content of a file of scalars and of a file of vectors."""
+    files = [tmp_path_factory.mktemp("contents") / name for name in ("A.sca", "A.vec")]
+    vector = Vector("protocol", "heard", array("q", range(500)), array("d", range(500)))
+    write_scalar_file([Scalar("N", f"{i}:last", i) for i in range(100)], IDENTITY, files[0])
+    write_vector_file([("N.a.protocol", vector)], IDENTITY, files[1])
+    return [file.read_bytes() for file in files]
+
+
+@given(random=st.randoms(use_true_random=False))
+@settings(deadline=None, max_examples=40)
+def test_a_damaged_file_is_read_or_an_error_that_names_it(tmp_path_factory, contents, random):
+    path = tmp_path_factory.getbasetemp() / "damaged"
+    for content, read in zip(contents, (read_scalars, read_vectors), strict=True):
+        path.write_bytes(damaged(content, random))
+        try:
+            read(path)
+        except ValueError as error:
+            assert str(error).startswith(f"{path}: ")  # noqa: PT017 (not every file is an error)
+        assert isinstance(run_attributes(path), dict)
+        assert isinstance(recorded_modules(path), set)
 
 
 def test_it_knows_which_modules_have_vectors(tmp_path):
