@@ -1,6 +1,7 @@
 // Builds python/gradysim/viewer/page.html: one file, with the script and the styles in it.
 // `node build.mjs FILE` writes it to another place.
 import { build } from "esbuild";
+import { createHash } from "node:crypto";
 import { readFile, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
@@ -26,8 +27,13 @@ const bundled = await build({
   loader: { ".css": "css" },
 });
 const text = (end) => bundled.outputFiles.find((file) => file.path.endsWith(end)).text;
+const [style, script] = [".css", ".js"].map((end) => text(end).trim());
+// The page runs its own script only, whatever a replay or the names of its nodes contain.
+const hashOf = (content) => `'sha256-${createHash("sha256").update(content).digest("base64")}'`;
 const page = (await readFile(`${here}src/page.html`, "utf8"))
-  .replace("/* styles */", () => text(".css").trim())
-  .replace("/* script */", () => text(".js").trim());
+  .replace("/* style hash */", () => hashOf(style))
+  .replace("/* script hash */", () => hashOf(script))
+  .replace("/* styles */", () => style)
+  .replace("/* script */", () => script);
 if (page.split("<!-- run -->").length !== 2) throw new Error("expected one place for the run in the page");
 await writeFile(target, page);

@@ -1,14 +1,31 @@
-"""A viewer of `gradysim view` that replaces a browser."""
+"""Viewers of `gradysim view` that replace a browser."""
 
+import contextlib
 import json
 import shlex
+import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
 from websockets.sync.client import connect
+
+
+@contextlib.contextmanager
+def silent_viewer(address: str, message: str = "") -> Iterator[None]:
+    """A viewer that sends a message, then neither reads nor answers; as one whose network is gone."""
+    url = urlsplit(address)
+    upgrade = ("Connection: Upgrade", "Upgrade: websocket", "Sec-WebSocket-Version: 13")
+    key = "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA=="
+    request = [f"GET /chunks?{url.query} HTTP/1.1", f"Host: {url.netloc}", *upgrade, key, "", ""]
+    frame = bytes([0x81, 0x80 | len(message), 0, 0, 0, 0]) + message.encode()  # text, masked with zeros
+    with socket.create_connection((url.hostname, url.port)) as connection:
+        connection.sendall("\r\n".join(request).encode() + frame)
+        assert connection.recv(12) == b"HTTP/1.1 101"
+        yield
 
 
 def watched(command: str, folder: Path, **options: Any) -> tuple[dict[str, Any], int, str]:

@@ -1,9 +1,9 @@
 // Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
 // {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, picture, screenshot, color}, or
-// {file, beside} for a page with two replays, of which the first one gets a key. `values` are expressions.
+// {url, beside} for a page with two replays, of which the first one gets a key. `values` are expressions.
 // With `picture`, `screenshot` or `color` it draws the page, which takes seconds.
-// `url` instead of `file`, the time `after` which to look, and `pause`, are for a run that goes on. Writes one object
-// to standard output.
+// `url` instead of `file`, the time `after` which to look, `pause`, and `kill`, [pid, signal], are for a run that goes on.
+// Writes one object to standard output.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 
@@ -57,14 +57,13 @@ async function look() {
   }, asked.seeks ?? []);
   if (asked.fill) await page.getByRole("combobox", { name: "Filter of frames" }).fill(asked.fill);
   for (const key of asked.keys ?? []) await act(key);
+  if (asked.kill) process.kill(...asked.kill);
   if (asked.until) await shows(asked.until);
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   said.address = decodeURIComponent(await page.evaluate(() => location.hash));
   said.text = await page.evaluate(() => document.body.innerText);
-  said.values = await page.evaluate(
-    (values) => Object.fromEntries(Object.entries(values).map(([name, code]) => [name, eval(code)])),
-    asked.values ?? {},
-  );
+  said.values = {};
+  for (const [name, code] of Object.entries(asked.values ?? {})) said.values[name] = await page.evaluate(code);
   said.scrolls_sideways = await page.evaluate(() => document.documentElement.scrollWidth > innerWidth);
   if (asked.picture || asked.screenshot || asked.color) await draw();
 }

@@ -1,11 +1,12 @@
 """Content of the replay page, in a browser."""
 
-import json
 import re
+import signal
 import subprocess
 import sys
 import threading
 from collections import Counter
+from contextlib import contextmanager
 from pathlib import Path
 from random import Random
 from subprocess import PIPE
@@ -19,7 +20,6 @@ from gradysim.simulator.handler.mobility import MobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import VisualizationConfiguration, VisualizationHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
-from gradysim.viewer.page import page
 from python.quiet_protocol import Quiet
 from python.thorough import some
 from viewer.conftest import record
@@ -206,25 +206,60 @@ def test_a_run_that_was_killed_opens(zigzag, browser, tmp_path):
     assert "ended early" in said["text"]
 
 
+@contextmanager
+def viewing(*arguments):
+    """Start `gradysim view`; return its process and the address of its page."""
+    command = [sys.executable, "-m", "gradysim", "view", *arguments, "--no-browser"]
+    with subprocess.Popen(command, stdout=PIPE, stderr=PIPE, text=True) as view:
+        try:
+            yield view, view.stdout.readline().strip()
+        finally:
+            view.kill()
+
+
 @pytest.mark.verify
-def test_two_replays_beside_each_other_have_one_clock(zigzag, town, browser, tmp_path):
-    both = tmp_path / "both.html"
-    names = json.dumps([zigzag.as_uri(), town.as_uri()])
-    element = f'<script type="application/json" id="gradysim-beside">{names}</script>'
-    both.write_text(page().replace("<!-- run -->", element))
-    first, second = browser(both, beside="Shift+ArrowRight")["times"]
+def test_two_replays_beside_each_other_have_one_clock(zigzag, town, browser):
+    with viewing(zigzag, town) as (view, address):
+        said = browser(None, url=address, beside="Shift+ArrowRight")
+        assert view.wait(20) == 0
+    first, second = said["times"]
     assert first == second != "0.000000"
+    assert said["console"] == []
 
 
 def test_a_run_is_shown_while_it_goes_on(zigzag, browser):
-    command = [sys.executable, "-m", "gradysim", "view", ROOT / "configs/zigzag.ini", "--no-browser"]
-    with subprocess.Popen([*command, "-c", "ZigZag5Synchronised"], stdout=PIPE, text=True) as view:
-        try:
-            said = browser(None, url=view.stdout.readline().strip(), after=2, times=[1.5])
-        finally:
-            view.kill()
+    with viewing(ROOT / "configs/zigzag.ini", "-c", "ZigZag5Synchronised") as (_, address):
+        said = browser(None, url=address, after=2, times=[1.5])
     assert said["states"] == [state(read_replay(zigzag), 1.5)]
     assert said["console"] == []
+
+
+@pytest.mark.parametrize(
+    ("keys", "number", "text"),
+    some(
+        [
+            ([" ", {"until": "Play"}], signal.SIGINT, "The run was ended at "),
+            ([], signal.SIGTERM, "The run was ended at "),
+            ([], signal.SIGKILL, "The connection to the run is lost"),
+        ]
+    ),
+)
+def test_a_run_that_is_ended_says_so(browser, keys, number, text):
+    with viewing(ROOT / "configs/zigzag.ini", "-c", "ZigZag5Synchronised") as (view, address):
+        said = browser(None, url=address, after=1, keys=keys, kill=[view.pid, number.name], until=text)
+        assert view.wait(2) in (128 + number, -number)
+    assert said["console"] == []
+
+
+@pytest.mark.verify
+def test_what_a_replay_contains_is_not_executed(town, browser, tmp_path):
+    hostile = tmp_path / "hostile.html"
+    harm = "<script>window.harm = 1</script><img src=x: onerror='window.harm = 2'>"
+    hostile.write_text(town.read_text() + harm)
+    said = browser(hostile, values={"harm": "String(window.harm)"})
+    assert said["values"] == {"harm": "undefined"}
+    assert all("Content Security Policy" in line for line in said["console"])
+    assert len(said["console"]) == 3
 
 
 class Flyer(Quiet):
@@ -269,7 +304,7 @@ def shown():
 
 
 def test_a_simulation_is_shown_while_it_runs(shown, browser):
-    url = f"http://127.0.0.1:{shown.port}/#node=Flyer%201"
+    url = f"http://127.0.0.1:{shown.port}/#node=Flyer%201&follow=1"
     said = browser(None, url=url, after=2, pause=True, color=PAINTED)
     x_m = SPEED_MPS * said["paused"]["time_s"]
     for node, (x, *rest) in enumerate(said["paused"]["positions"]):

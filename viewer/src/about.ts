@@ -1,6 +1,6 @@
 // What was run: enough to run it again.
 
-import { make } from "./dom";
+import { make, timeText } from "./dom";
 import { dialog } from "./keys";
 import { Replay } from "./replay";
 
@@ -19,11 +19,13 @@ export function subtitleOf(replay: Replay): string {
 
 /** A note if the record does not show the whole run; "" otherwise. */
 export function warningOf(replay: Replay): string {
-  const { recorded, nodes } = replay.run;
+  const { recorded, nodes, duration_s } = replay.run;
   const { end, isLive, isLost } = replay.source;
   const parts: string[] = [];
-  if (isLost && isLive) parts.push("The process of the run has gone.");
-  else if (isLost || end?.complete === false) parts.push("The run ended early.");
+  if (isLost && isLive) parts.push("The connection to the run is lost: it was ended, or it does not answer.");
+  else if (isLost) parts.push("The run ended early: this is what was recorded until then.");
+  else if (end?.complete === false)
+    parts.push(`The run was ended at ${timeText(end.time_s * 1e9, 1)} s of ${duration_s} s.`);
   if (recorded !== null && recorded.length < nodes.length)
     parts.push(`Receptions were recorded at ${recorded.length} of ${nodes.length} nodes.`);
   return parts.join(" ");

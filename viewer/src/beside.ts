@@ -1,6 +1,7 @@
 // Several replays beside each other, on one clock: that in which the person acts tells the others the time.
 
 import { make } from "./dom";
+import { openSocket } from "./source";
 
 /** State of a page's clock. */
 export interface Told {
@@ -9,10 +10,18 @@ export interface Told {
   isPlaying: boolean;
 }
 
+/** The replays beside each other: {address: title}. */
+export interface Beside {
+  /** Path of the WebSocket that tells the server that the page is open. */
+  socket: string;
+  replays: Record<string, string>;
+}
+
 /** Show pages beside each other; what one of them tells goes to the others. */
-export function showBeside(addresses: string[]): void {
-  const frames = addresses.map((address) =>
-    make("iframe", { src: address + location.hash, title: decodeURIComponent(address) }),
+export function showBeside({ socket, replays }: Beside): void {
+  openSocket(socket);
+  const frames = Object.entries(replays).map(([address, title]) =>
+    make("iframe", { src: address + location.hash, title, sandbox: "allow-scripts" }),
   );
   document.body.className = "beside";
   document.body.append(...frames);

@@ -1,5 +1,5 @@
 import { App } from "./app";
-import { showBeside } from "./beside";
+import { Beside, showBeside } from "./beside";
 import { make } from "./dom";
 import { liveSource } from "./live";
 import { scriptInterface } from "./script";
@@ -9,7 +9,7 @@ import "./style.css";
 
 async function start(): Promise<void> {
   try {
-    const beside = jsonElement<string[]>("gradysim-beside");
+    const beside = jsonElement<Beside>("gradysim-beside");
     if (beside !== null) return showBeside(beside);
     const source = await (liveSource() ?? snapshotSource() ?? fileSource());
     if (source === null) document.body.append(make("p", { class: "message" }, "This page holds no run."));

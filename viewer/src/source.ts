@@ -48,10 +48,15 @@ export function connect(
   const named = jsonElement<{ socket: string }>(id);
   if (named === null) return null;
   return new Promise((resolve, reject) => {
-    const socket = new WebSocket(`ws://${location.host}${named.socket}`);
+    const socket = openSocket(named.socket);
     const source: Source = create(socket, () => resolve(source));
-    socket.addEventListener("close", () => reject(new Error("the run does not answer")));
+    socket.addEventListener("close", () => reject(new Error("the run was ended, or does not answer")));
   });
+}
+
+/** A WebSocket to the server of the page. */
+export function openSocket(path: string): WebSocket {
+  return new WebSocket(`ws://${location.host}${path}`);
 }
 
 /** What an element of the page holds; null if there is none. */

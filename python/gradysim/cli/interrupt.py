@@ -11,7 +11,7 @@ import os
 import signal
 import threading
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from types import FrameType
 from typing import Any, Self
 
@@ -63,9 +63,16 @@ class StopOnInterrupt:
             after the time of --stop-after.
     """
 
-    def __init__(self, stop_after_s: float | None = None) -> None:
-        """Prepare; `stop_after_s` is the wall time in seconds from entry to a press."""
+    def __init__(self, stop_after_s: float | None = None, *, grace_s: float | None = None) -> None:
+        """Prepare.
+
+        Args:
+            stop_after_s: Wall time in seconds from entry to a press; None for no such press.
+            grace_s: For a command that has no results to write: wall time in seconds from the first press of
+                any kind to KeyboardInterrupt, and from there to the end of the process. None for no limit.
+        """
         self._stop_after_s = stop_after_s
+        self._grace_s = grace_s
         self.workers: Collection[int] | None = None
         self.exit_code = INTERRUPTED
         self._presses: Counter[int] = Counter()
@@ -122,7 +129,7 @@ class StopOnInterrupt:
                 if number == signal.SIGINT or signal.getsignal(number) != signal.SIG_IGN:
                     self._previous[number] = signal.signal(number, self._on_signal)
             if self._stop_after_s is not None:
-                self._press_after(max(self._stop_after_s, 0.0))
+                self._alarm_after(max(self._stop_after_s, 0.0), self._on_alarm)
                 if self._stop_after_s <= 0:
                     signal.raise_signal(signal.SIGALRM)
         return self
@@ -155,14 +162,19 @@ class StopOnInterrupt:
         if raises and not self._in_worker:
             for each in self._previous:
                 signal.signal(each, signal.SIG_IGN)  # another one would interrupt the exit
+            if self._grace_s is not None:
+                self._alarm_after(self._grace_s, self._end_now)
         for worker in self.workers or ():
             with contextlib.suppress(ProcessLookupError):
                 os.kill(worker, FORWARDED)
         if raises:
             raise KeyboardInterrupt
         if not self._in_worker:
+            if self._grace_s is not None:
+                self._alarm_after(self._grace_s, self._on_alarm)
+                return
             if number != signal.SIGINT:
-                self._press_after(_GRACE_S.get(presses, 0.0))
+                self._alarm_after(_GRACE_S.get(presses, 0.0), self._on_alarm)
             if presses == 1:
                 with contextlib.suppress(OSError):  # sys.stderr may be in the middle of a line
                     os.write(_ERROR_OUTPUT, _REPLIES.get(number, _REPLY))
@@ -174,12 +186,15 @@ class StopOnInterrupt:
             return presses > 1
         return not self._in_worker and presses > (1 if self.workers is None else 2)
 
-    def _press_after(self, duration_s: float) -> None:
-        """Make SIGALRM the next press, after a wall time in seconds; 0 for never."""
-        handler = signal.signal(signal.SIGALRM, self._on_alarm)
-        self._previous.setdefault(signal.SIGALRM, handler)
+    def _alarm_after(self, duration_s: float, handler: Callable[[int, FrameType | None], None]) -> None:
+        """Call a handler of SIGALRM after a wall time in seconds; 0 for never."""
+        before = signal.signal(signal.SIGALRM, handler)
+        self._previous.setdefault(signal.SIGALRM, before)
         self._has_timer = True
         signal.setitimer(signal.ITIMER_REAL, duration_s)
+
+    def _end_now(self, _number: int, _frame: FrameType | None) -> None:
+        os._exit(self.exit_code)
 
     def _on_alarm(self, number: int, frame: FrameType | None) -> None:
         self._presses[number] = self._count()

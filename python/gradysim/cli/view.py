@@ -2,9 +2,8 @@
 
 import logging
 import sys
-import tempfile
-import time
 import webbrowser
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -20,8 +19,10 @@ if TYPE_CHECKING:
     from gradysim.replay.live import LiveView
     from gradysim.scenario.scenario import Scenario
 
-_RELOAD_S = 3.0
-"""A viewer that comes back within this time has only reloaded the page; seconds of wall time."""
+_GRACE_S = 0.4
+"""Wall time for callbacks of protocols to return after Ctrl-C, and then for `finish`, in seconds."""
+
+_HOW_TO_END = "Close the page or press Ctrl-C to end the view."
 
 DEFAULTS = ViewOptions()
 
@@ -41,7 +42,8 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
 
     try:
         if all(file.suffix == ".html" for file in files):
-            return show_replays(files, options)
+            check_replays(files)
+            return show_replay(files[0], options) if len(files) == 1 else show_beside(files, options)
         if len(files) > 1:
             raise ConfigError(f"{files[1]}: expected one .ini file, or replays (.html) only")
         if files[0].suffix != ".ini" and files[0].is_file():
@@ -51,55 +53,74 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
         return say_mistake(mistake)
 
 
-def show_replays(files: tuple[Path, ...], options: ViewOptions) -> int:
-    """Open a replay, or several beside each other. Raises ConfigError, OSError and ValueError for others."""
+def check_replays(files: Sequence[Path]) -> None:
+    """Warn of replays that end early. Raises ConfigError, OSError and ValueError for other files."""
     from gradysim.replay.file import read_parts
     from gradysim.scenario.errors import ConfigError, nearest_file
-    from gradysim.viewer.page import page_beside
 
     for file in files:
         try:
-            read_parts(file)
+            _, _, end = read_parts(file)
         except FileNotFoundError as error:
             raise ConfigError(
                 f"{file}: {error.strerror}",
                 expected="a replay",
                 suggestion=nearest_file(file, (".html",), str(file)),
             ) from error
-    if len(files) == 1:
-        page = files[0].resolve()
-    else:
-        page = Path(tempfile.mkdtemp(prefix="gradysim-")) / "beside.html"
-        page.write_text(page_beside(files), encoding="utf-8")
-    _open(page.as_uri(), options)
+        if end is None:
+            reason = "its run was killed or goes on, or the file was cut"
+            print(f"{file}: the replay is not complete: {reason}", file=sys.stderr)
+
+
+def show_replay(file: Path, options: ViewOptions) -> int:
+    """Open the file of a replay."""
+    address = file.resolve().as_uri()
+    _open(address, address, options)
     return OK
+
+
+def show_beside(files: Sequence[Path], options: ViewOptions) -> int:
+    """Show several replays beside each other. Returns when the viewers have left."""
+    from gradysim.replay.beside import ReplaysBeside
+
+    interrupt = StopOnInterrupt(grace_s=_GRACE_S)
+    try:
+        with ReplaysBeside(files, options.port, options.host) as server, interrupt:
+            _open(server.address, server.address_for_once, options)
+            server.wait_for_viewer(interrupt.should_stop)
+            if not interrupt.should_stop():
+                print(_HOW_TO_END, file=sys.stderr)
+                server.wait_for_the_last(interrupt.should_stop)
+    except KeyboardInterrupt:
+        return interrupt.exit_code
+    return interrupt.exit_code if interrupt.should_stop() else OK
 
 
 def show_live(file: Path, options: ViewOptions) -> int:
     """Run a configuration while viewers watch. Returns when the run has ended and they have left."""
     from gradysim.replay.live import LiveView
 
-    (scenario,) = check(file, options.config, str(options.run), options.settings, options.seed)
-    live = LiveView(options.port, options.host)
-    with StopOnInterrupt() as interrupt:
-        try:
-            with interrupt.at_once():
-                run = _built(scenario, options.mode, live)
-                _open(live.address, options)
-                live.wait_for_viewer()
-                code = _executed(run)
-                print("The run has ended; close the page or press Ctrl-C to end the view.", file=sys.stderr)
-                _wait_for_the_last(live)
-        except KeyboardInterrupt:
-            return interrupt.exit_code
-        finally:
-            live.stop()
-    return code
-
-
-def _executed(run: "Run") -> int:
+    interrupt = StopOnInterrupt(grace_s=_GRACE_S)
     try:
-        run.execute()
+        with LiveView(options.port, options.host) as live, interrupt:
+            with interrupt.at_once():
+                (scenario,) = check(file, options.config, str(options.run), options.settings, options.seed)
+                run = _built(scenario, options.mode, live)
+            _open(live.address, live.address_for_once, options)
+            live.wait_for_viewer(interrupt.should_stop)
+            code = _executed(run, live, interrupt)
+            if not interrupt.should_stop():
+                print("The run has ended.", _HOW_TO_END, file=sys.stderr)
+                live.wait_for_the_last(interrupt.should_stop)
+    except KeyboardInterrupt:
+        return interrupt.exit_code
+    return interrupt.exit_code if interrupt.should_stop() else code
+
+
+def _executed(run: "Run", live: "LiveView", interrupt: StopOnInterrupt) -> int:
+    try:
+        with interrupt.executing():
+            run.execute(should_stop=live.paced(interrupt.should_stop))
     except Exception as failure:
         print_failure(failure, sys.stderr)
         return FAILED
@@ -116,16 +137,7 @@ def _built(scenario: "Scenario", mode: Mode, live: "LiveView") -> "Run":
     return IntegratedRun(scenario, replay=live, log_level=logging.INFO)
 
 
-def _open(address: str, options: ViewOptions) -> None:
+def _open(address: str, address_for_browser: str, options: ViewOptions) -> None:
     print(address, flush=True)
     if options.browser:
-        webbrowser.open(address)
-
-
-def _wait_for_the_last(live: "LiveView") -> None:
-    """Return when all viewers have left and none has come back."""
-    seen_at = time.monotonic()
-    while time.monotonic() - seen_at < _RELOAD_S:
-        if live.viewers:
-            seen_at = time.monotonic()
-        time.sleep(0.2)
+        webbrowser.open(address_for_browser)

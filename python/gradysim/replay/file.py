@@ -50,19 +50,33 @@ class ReplayFile:
 
 
 def read_parts(path: Path) -> tuple[dict[str, Any], Iterator[bytes], dict[str, Any] | None]:
-    """Return the description of the run, its encoded chunks, and how it ended; None if it was killed.
+    """Return the description of the run, its encoded chunks, and how it ended.
+
+    The end is None if the run was killed or goes on, or if the end of the file is missing.
 
     Raises ValueError if the file is not a replay, OSError if it cannot be read.
     """
-    text = path.read_text(encoding="utf-8")
-    found = re.search(re.escape(_RUN) + "(.*?)</script>", text, re.DOTALL)
-    if found is None:
-        raise ValueError(f"{path}: expected a replay, as `gradysim run --replay` writes it")
-    run = json.loads(found[1])
+    text = path.read_text(encoding="utf-8", errors="replace")  # it may be any file
+    run = _object(path, text, _RUN)
+    if run is None:
+        raise ValueError(f"{path}: expected a complete replay, as `gradysim run --replay` writes it")
     if run.get("format") != FORMAT:
         raise ValueError(f"{path}: a replay of format {run.get('format')}; expected format {FORMAT}")
     chunks = (
         base64.b64decode(chunk[1]) for chunk in re.finditer(f"{re.escape(_CHUNK)}([^<]*)</script>", text)
     )
-    end = re.search(re.escape(_END) + "(.*?)</script>", text, re.DOTALL)
-    return run, chunks, None if end is None else json.loads(end[1])
+    return run, chunks, _object(path, text, _END)
+
+
+def _object(path: Path, text: str, start: str) -> dict[str, Any] | None:
+    """Return the JSON object of an element; None if there is none. ValueError for another value."""
+    found = re.search(re.escape(start) + "(.*?)</script>", text, re.DOTALL)
+    if found is None:
+        return None
+    try:
+        value = json.loads(found[1])
+    except (ValueError, RecursionError):
+        value = None
+    if not isinstance(value, dict):
+        raise ValueError(f"{path}: a damaged replay: expected a JSON object, got `{found[1][:50]}`")
+    return value

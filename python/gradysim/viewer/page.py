@@ -1,9 +1,8 @@
 """The page that shows a run. `make viewer` builds it from the TypeScript sources in viewer/."""
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib import resources
-from pathlib import Path
 from typing import Any
 
 
@@ -22,16 +21,16 @@ def snapshot_page() -> str:
     return _page_with("gradysim-snapshots", {"socket": "/"})
 
 
-def page_beside(replays: Sequence[Path]) -> str:
-    """Return a page that shows several replays beside each other, on one clock."""
-    return _page_with("gradysim-beside", [path.resolve().as_uri() for path in replays])
+def page_beside(socket: str, replays: Mapping[str, str]) -> str:
+    """Return a page that shows several replays beside each other, on one clock: {address: title}."""
+    return _page_with("gradysim-beside", {"socket": socket, "replays": replays})
 
 
-def json_text(value: Mapping[str, Any] | Sequence[str]) -> str:
+def json_text(value: Mapping[str, Any]) -> str:
     """Return a value as JSON that cannot end the element that it is in."""
     return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")
 
 
-def _page_with(element_id: str, value: Mapping[str, Any] | Sequence[str]) -> str:
+def _page_with(element_id: str, value: Mapping[str, Any]) -> str:
     element = f'<script type="application/json" id="{element_id}">{json_text(value)}</script>\n'
     return page().replace("<!-- run -->", element)

@@ -1,28 +1,24 @@
-"""What the servers of the page have in common: which requests they accept, and how they answer.
-
-The package `websockets` is imported by the servers only.
-"""
+"""HTTP of the servers of the page: which requests they accept, and their responses."""
 
 import logging
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
-from urllib.parse import urlsplit
 
 if TYPE_CHECKING:
     from websockets.http11 import Request, Response
-
-LONGEST_MESSAGE_BYTES = 1000
-"""Limit for messages from a viewer."""
-
-HANDSHAKE_S = 2.0
-"""Time limit for the opening handshake of a viewer, in seconds of wall time."""
 
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "[::1]"})
 """Names in addresses that only this machine can reach."""
 
 _WILDCARDS = frozenset({"", "0.0.0.0", "[::]"})
 """Hosts that stand for all addresses of this machine."""
+
+_REASONS = {
+    HTTPStatus.FORBIDDEN: "Open the address that the program printed.",
+    HTTPStatus.NOT_FOUND: "There is nothing here.",
+    HTTPStatus.SEE_OTHER: "The page is at another address.",
+}
 
 
 class Host:
@@ -60,23 +56,6 @@ def is_allowed(
     return has_own_name and request.headers.get("Origin") in {None, f"http://{host}", *origins}
 
 
-def answer(connection: Any, request: "Request", allowed: bool, page: Callable[[], str]) -> "Response | None":
-    """Return the answer to a request: the page at `/`, or an error; None if it opens the WebSocket.
-
-    `connection` is a `ServerConnection` of `websockets.sync` or `websockets.asyncio`.
-    """
-    if not allowed:
-        return _respond(connection, HTTPStatus.FORBIDDEN, "Open the address that the program printed.\n")
-    if "Upgrade" in request.headers:
-        return None
-    if urlsplit(request.path).path != "/":
-        return _respond(connection, HTTPStatus.NOT_FOUND, "There is nothing here.\n")
-    response = _respond(connection, HTTPStatus.OK, page())
-    del response.headers["Content-Type"]
-    response.headers["Content-Type"] = "text/html; charset=utf-8"
-    return response
-
-
 def silent_logger(name: str) -> logging.Logger:
     """Return a logger for the library, which logs each handshake that fails."""
     logger = logging.getLogger(f"{name}.websockets")
@@ -84,6 +63,22 @@ def silent_logger(name: str) -> logging.Logger:
     return logger
 
 
-def _respond(connection: Any, status: HTTPStatus, text: str) -> "Response":
-    response: Response = connection.respond(status, text)
+def respond(connection: Any, status: HTTPStatus, location: str | None = None) -> "Response":
+    """Return the response to a request that gets no page; `location` is where it finds one.
+
+    `connection` is a `ServerConnection` of `websockets`.
+    """
+    response: Response = connection.respond(status, f"{_REASONS[status]}\n")
+    if location is not None:
+        response.headers["Location"] = location
+    return response
+
+
+def respond_with_page(connection: Any, page: bytes) -> "Response":
+    """Return the response that holds a page."""
+    response: Response = connection.respond(HTTPStatus.OK, "")
+    response.body = page
+    for name, value in (("Content-Type", "text/html; charset=utf-8"), ("Content-Length", str(len(page)))):
+        del response.headers[name]
+        response.headers[name] = value
     return response

@@ -1,10 +1,15 @@
 import os
 import signal
+import subprocess
+import sys
+import textwrap
 import threading
+import time
 
 import pytest
 
 from gradysim.cli.interrupt import FORWARDED, StopOnInterrupt
+from python.cli.command import environment
 
 
 def test_nothing_was_pressed():
@@ -46,6 +51,30 @@ def test_behind_it_the_first_press_is_a_wish_again():
         assert interrupt.should_stop()
         with pytest.raises(KeyboardInterrupt), interrupt.at_once():
             pytest.fail("it was pressed before")
+
+
+def test_with_a_time_limit_one_press_is_enough():
+    with StopOnInterrupt(grace_s=0.1) as interrupt:
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.should_stop()
+        with pytest.raises(KeyboardInterrupt):
+            time.sleep(30)
+
+
+def test_a_process_that_is_not_done_after_a_press_ends():
+    program = """
+        import signal, time
+        from gradysim.cli.interrupt import StopOnInterrupt
+        with StopOnInterrupt(grace_s=0.01):
+            signal.raise_signal(signal.SIGTERM)
+            while True:
+                try:
+                    time.sleep(30)
+                except KeyboardInterrupt:
+                    pass
+    """
+    command = [sys.executable, "-c", textwrap.dedent(program)]
+    assert subprocess.run(command, env=environment(), timeout=20).returncode == 143
 
 
 def test_afterwards_all_is_as_before():

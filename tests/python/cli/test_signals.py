@@ -187,23 +187,3 @@ def control_terminal() -> None:
     import termios
 
     fcntl.ioctl(0, termios.TIOCSCTTY, 0)
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_a_view_ends_in_order(folder, number):
-    (folder / "signals.py").write_text(PROTOCOLS)
-    name = '*.uavs[*].protocol.class="signals.py:Ready"'
-    command = ["view", "test.ini", "--mode", "prototype", "--no-browser", "--set", name]
-    with subprocess.Popen(
-        [sys.executable, "-m", "gradysim", *command],
-        cwd=folder,
-        env=environment(),
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    ) as process:
-        assert process.stdout.readline().startswith("http://127.0.0.1:")
-        process.send_signal(number)
-        _, err = process.communicate(timeout=20)
-    assert process.returncode == 128 + number
-    assert "Traceback" not in err

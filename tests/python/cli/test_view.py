@@ -1,9 +1,18 @@
-from urllib.parse import urlsplit
-from urllib.request import url2pathname
+import shutil
+import socket
+import subprocess
+import sys
+import urllib.request
+import webbrowser
+from urllib.parse import parse_qs, urlsplit
 
 import pytest
+from websockets.sync.client import connect
 
 from gradysim.cli.app import main
+from gradysim.prototype.run import PrototypeRun
+from gradysim.replay.live import LiveView
+from gradysim.replay.sink import ReplayWriter
 from python.viewing import watched
 
 
@@ -40,16 +49,59 @@ def test_a_failure_of_a_protocol_is_told_in_the_end(folder, make_scenario):
     assert "spoilt" in error_output
 
 
-def test_a_replay_and_two_beside_each_other(folder, capsys):
-    assert main(["run", "test.ini", "--replay", "all", "--quiet"]) == 0
-    page = "results/General-#0.integrated.html"
-    capsys.readouterr()
-    assert main(["view", page, "--no-browser"]) == 0
-    assert capsys.readouterr().out.strip() == (folder / page).as_uri()
-    assert main(["view", page, page, "--no-browser"]) == 0
-    beside = url2pathname(urlsplit(capsys.readouterr().out.strip()).path)
-    with open(beside) as file:
-        assert file.read().count((folder / page).as_uri()) == 2
+@pytest.mark.parametrize(
+    ("port", "reason"), [("-1", "0 to 65535"), ("80000", "0 to 65535"), ("taken", "in use")]
+)
+def test_a_port_that_cannot_be_used_is_one_line(folder, capsys, port, reason):
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        number = str(other.getsockname()[1]) if port == "taken" else port
+        assert main(["view", "test.ini", "--port", number, "--no-browser"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"port {number}: " in line
+    assert line.endswith(reason)
+
+
+def test_the_browser_gets_an_address_without_the_token(folder, monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    monkeypatch.setattr(LiveView, "wait_for_viewer", lambda *_: None)
+    monkeypatch.setattr(LiveView, "wait_for_the_last", lambda *_: None)
+    assert main(["view", "test.ini", "--mode", "prototype"]) == 0
+    token = parse_qs(urlsplit(capsys.readouterr().out.strip()).query)["token"][0]
+    (address,) = opened
+    assert token not in address
+
+
+@pytest.fixture
+def replay(folder, make_scenario):
+    """The file of a replay."""
+    path = folder / "run.html"
+    PrototypeRun(make_scenario(), replay=ReplayWriter(path)).execute()
+    return path
+
+
+def test_a_replay_is_opened_from_its_file(replay, capsys):
+    assert main(["view", "run.html", "--no-browser"]) == 0
+    assert capsys.readouterr() == (f"{replay.as_uri()}\n", "")
+
+
+def test_a_replay_that_was_cut_is_said_to_be_incomplete(replay, capsys):
+    replay.write_bytes(replay.read_bytes()[:-10])
+    assert main(["view", "run.html", "--no-browser"]) == 0
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("run.html: the replay is not complete: ")
+
+
+def test_replays_beside_each_other_are_served_while_somebody_watches(replay, folder):
+    shutil.copy(replay, folder / "other.html")
+    command = [sys.executable, "-m", "gradysim", "view", "run.html", "other.html", "--no-browser"]
+    with subprocess.Popen(command, cwd=folder, stdout=subprocess.PIPE, text=True) as view:
+        address = urlsplit(view.stdout.readline().strip())
+        with connect(f"ws://{address.netloc}/viewer?{address.query}"):
+            for path in ("/0", "/1"):
+                with urllib.request.urlopen(f"http://{address.netloc}{path}?{address.query}") as answer:
+                    assert answer.read() == replay.read_bytes()
+        assert view.wait(20) == 0
 
 
 @pytest.mark.parametrize(

@@ -32,9 +32,19 @@ def test_a_file_that_was_cut_off_has_its_first_chunks(path):
 
 
 @pytest.mark.parametrize(
-    "text", ["<html></html>", '<script type="application/json" id="gradysim-run">{"format": 99}</script>']
+    "text",
+    [
+        b"<html></html>",
+        b"\xff",
+        b'<script type="application/json" id="gradysim-run">{"format": 99}</script>',
+        b'<script type="application/json" id="gradysim-run">[1]</script>',
+        b'<script type="application/json" id="gradysim-run">{"for</script>',
+        b'<script type="application/json" id="gradysim-run">' + b"[" * 100_000 + b"</script>",
+    ],
 )
 def test_another_file_is_refused(path, text):
-    path.write_text(text)
-    with pytest.raises(ValueError, match="replay"):
+    path.write_bytes(text)
+    with pytest.raises(ValueError, match="replay") as refused:
         read_parts(path)
+    assert str(refused.value).startswith(f"{path}: ")
+    assert len(str(refused.value)) < 200

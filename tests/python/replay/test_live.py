@@ -16,21 +16,20 @@ from websockets.sync.client import connect
 from gradysim.prototype.run import PrototypeRun
 from gradysim.replay.chunk import unpack
 from gradysim.replay.live import LiveView
-from gradysim.viewer.serving import LONGEST_MESSAGE_BYTES
+from gradysim.viewer.server import LONGEST_MESSAGE_BYTES
+from python.processes import wait_until
 
 
 @pytest.fixture
 def live():
-    view = LiveView()
-    yield view
-    view.stop()
+    with LiveView() as view:
+        yield view
 
 
 @pytest.fixture
 def published():
-    view = LiveView(host="0.0.0.0")
-    yield view
-    view.stop()
+    with LiveView(host="0.0.0.0") as view:
+        yield view
 
 
 def status_for(live, path, *headers):
@@ -46,9 +45,9 @@ def join(live, **options):
     return connect(f"ws://{address.netloc}/chunks?{address.query}", **options)
 
 
-def run_in_thread(scenario, live):
+def run_in_thread(scenario, live, should_stop=lambda: False):
     run = PrototypeRun(scenario, replay=live)
-    thread = threading.Thread(target=run.execute, daemon=True)
+    thread = threading.Thread(target=run.execute, args=(None, live.paced(should_stop)), daemon=True)
     thread.start()
     return thread
 
@@ -88,8 +87,7 @@ def test_the_run_waits_for_a_viewer_that_does_not_go_on(live, make_scenario):
     scenario = make_scenario("class Tested(Talker): pass", "sim-time-limit = 600s")
     with join(live) as viewer:
         viewer.send('{"time_s": 0, "speed": 0}')
-        while not live.clocks:
-            time.sleep(0.01)
+        wait_until(lambda: live.clocks)
         thread = run_in_thread(scenario, live)
         for message in viewer:
             if isinstance(message, bytes):
@@ -101,6 +99,22 @@ def test_the_run_waits_for_a_viewer_that_does_not_go_on(live, make_scenario):
         assert live.recorded_s == seen_s
         viewer.send('{"time_s": 700, "speed": 1}')
         assert ends(thread)
+
+
+def test_a_run_that_waits_is_stopped_and_shown_up_to_its_end(live, make_scenario):
+    stop = threading.Event()
+    with join(live) as viewer:
+        viewer.send('{"time_s": 0, "speed": 0}')
+        wait_until(lambda: live.clocks)
+        scenario = make_scenario("class Tested(Talker): pass", "sim-time-limit = 600s")
+        thread = run_in_thread(scenario, live, stop.is_set)
+        wait_until(lambda: live.recorded_s > max(live.clocks.values()))
+        stop.set()
+        _, chunks, end = told_by(viewer)
+        assert ends(thread)
+    assert not end["complete"]
+    assert [chunk.start_ns for chunk in chunks] == [0, *(chunk.end_ns for chunk in chunks[:-1])]
+    assert chunks[-1].end_ns == pytest.approx(end["time_s"] * 1e9)
 
 
 @pytest.mark.parametrize(
@@ -117,8 +131,7 @@ def test_garbage_ends_a_connection_and_not_the_run(live, make_scenario, garbage)
 def test_a_viewer_that_pauses_and_leaves_stops_nobody(live, make_scenario):
     with join(live) as viewer:
         viewer.send('{"time_s": 0, "speed": 0}')
-        while not live.clocks:
-            time.sleep(0.01)
+        wait_until(lambda: live.clocks)
         thread = run_in_thread(make_scenario("class Tested(Talker): pass", "sim-time-limit = 300s"), live)
         time.sleep(0.5)
         assert thread.is_alive()

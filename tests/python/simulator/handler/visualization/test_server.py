@@ -12,10 +12,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 from gradysim.simulator.handler.visualization import VisualizationConfiguration
-from gradysim.simulator.handler.visualization import server as server_module
 from gradysim.simulator.handler.visualization.messages import CommandQueue
 from gradysim.simulator.handler.visualization.server import PUBLIC_VIEWER, VisualizationServer, _Viewer
-from gradysim.viewer.serving import LONGEST_MESSAGE_BYTES
+from gradysim.viewer import server as page_server
+from gradysim.viewer.server import LONGEST_MESSAGE_BYTES
 
 
 @pytest.fixture
@@ -142,8 +142,8 @@ def test_if_it_listens_everywhere_the_address_is_that_of_this_machine(commands, 
 
 
 def test_addresses_of_ipv6_are_in_brackets(commands):
-    server = VisualizationServer(VisualizationConfiguration(host="fe80::1"), "hello", commands)
-    assert server.address == "http://[fe80::1]:0/"
+    server = VisualizationServer(VisualizationConfiguration(host="fe80::1", port=1), "hello", commands)
+    assert server.address == "http://[fe80::1]:1/"
 
 
 @pytest.mark.parametrize("name", ["127.0.0.1", "localhost"])
@@ -198,7 +198,7 @@ def fill_buffers(server):
 
 
 def test_a_viewer_that_pauses_and_never_reads_is_disconnected(server, monkeypatch):
-    monkeypatch.setattr(server_module, "_MESSAGE_S", 0.2)
+    monkeypatch.setattr(page_server, "_MESSAGE_S", 0.2)
     with never_reads(server) as viewer:
         viewer.send('{"interaction": "pause/resume"}')
         while not server.is_paused:
@@ -261,4 +261,4 @@ def test_a_failure_of_the_server_ends_a_pause_and_is_told(commands, monkeypatch,
     server._running.clear()
     server._run()
     assert (server.is_paused, len(caplog.messages)) == (False, 1)
-    assert "the simulation goes on without it" in caplog.text
+    assert "the run goes on without it" in caplog.text

@@ -1,0 +1,28 @@
+"""Server of several replays beside each other: their page, and each file."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from gradysim.viewer.page import page_beside
+from gradysim.viewer.server import PageServer
+
+
+class ReplaysBeside(PageServer):
+    """Serves replays while a browser shows them.
+
+    Several replays need a page of their own. As a file it would be in a temporary directory, which some
+    browsers cannot read, and which stays there.
+    """
+
+    def __init__(self, files: Sequence[Path], port: int = 0, host: str = "127.0.0.1") -> None:
+        """Prepare to serve files of replays. ValueError if `port` is not a port."""
+        super().__init__(host, port, needs_token=True)
+        self._files = {f"/{index}": file for index, file in enumerate(files)}
+
+    def _page(self, path: str) -> bytes | None:
+        if path in self._files:
+            return self._files[path].read_bytes()
+        if path != "/":
+            return None
+        replays = {f"{place}{self._query}": str(file) for place, file in self._files.items()}
+        return page_beside(f"/viewer{self._query}", replays).encode()
