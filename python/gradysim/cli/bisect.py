@@ -73,24 +73,18 @@ def _explained(
     campaign: "Campaign", verdict: "Verdict", result_dir: Path, executor: "Executor"
 ) -> Iterator[str]:
     from gradysim.ladder.explanation_words import explanation_sentences
-    from gradysim.ladder.why import explain
-    from gradysim.replay.reader import read_replay
+    from gradysim.ladder.why import record_and_explain
 
     place, works, fails = verdict.place, verdict.works, verdict.fails
     assert place is not None
     assert works is not None
     assert fails is not None
     result_dir.mkdir(parents=True, exist_ok=True)
-    files = [
+    one, other = (
         result_dir / f"{campaign.config}-{campaign.levels[level].name}-#{place}.html"
         for level in (works, fails)
-    ]
-    recorded = [
-        executor.submit(campaign.record, campaign.effects_up_to(level), place, file)
-        for level, file in zip((works, fails), files, strict=True)
-    ]
-    of_works, of_fails = (each.result() for each in recorded)
-    replays = [read_replay(file) for file in files]
-    explanation = explain(replays[0], replays[1], (of_works, of_fails))
+    )
+    effects = (campaign.effects_up_to(works), campaign.effects_up_to(fails))
+    explanation = record_and_explain(campaign, effects, place, (one, other), executor)
     yield from explanation_sentences(explanation, works, fails)
-    yield f"Look at both, run {place}: gradysim view {files[0]} {files[1]}"
+    yield f"Look at both, run {place}: gradysim view {one} {other}"

@@ -66,6 +66,7 @@ def _text_of_pattern(pattern: Pattern) -> str:
 
 def text_of_time(seconds: float) -> str:
     """Return `40 ms`."""
+    seconds = float(f"{seconds:.3g}")  # or 0.9999 s would be 1e+03 ms
     for unit, size in (("s", 1), ("ms", 1e-3), ("µs", 1e-6)):
         if seconds >= size:
             return f"{seconds / size:.3g} {unit}"

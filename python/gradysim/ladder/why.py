@@ -1,39 +1,23 @@
 """Why a level breaks a protocol: what differs between two runs of the same seed."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
+from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
-from gradysim.ladder.campaign import LOST_MESSAGES
+from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, Effects
 from gradysim.ladder.clashes import Diagnosis, diagnose
+from gradysim.ladder.difference import Difference, first_difference
+from gradysim.ladder.recording import Recording, read_recording, record_to_files
 from gradysim.replay.reader import Replay
 from gradysim.replay.tables import BROADCAST, FRAME_KINDS, NOT_LOST
 
-_NS_PER_S = 1e9
 _TOO_WEAK = "below_sensitivity"
 _DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
-
-
-@dataclass(frozen=True)
-class Difference:
-    """The first reception that ends differently.
-
-    Attributes:
-        time_s: Start of the frame at the level that fails.
-        sender: Name of the node.
-        receiver: Name of the node.
-        cause: The callback that sent it, such as `timer heartbeat`.
-        before: Outcome at the level that works; "" if the frame was not sent there.
-        after: Outcome at the level that fails; likewise.
-    """
-
-    time_s: float
-    sender: str
-    receiver: str
-    cause: str
-    before: str
-    after: str
 
 
 @dataclass(frozen=True)
@@ -44,31 +28,61 @@ class Explanation:
         losses: {outcome: (ratio where it works, ratio where it fails)} of the receptions at the addressees of
             messages; the largest increase first. `below_sensitivity` includes what is out of range.
         messages: The same for messages that their sender gave up.
-        first: The first reception that ends differently; None if all end alike.
+        first: The first callback at which the runs part; None if all do the same at the same times.
         diagnosis: The clashes where it fails.
+        failures: The exception that ended each run; "" if there is none.
     """
 
     losses: Mapping[str, tuple[float, float]]
     messages: Mapping[str, tuple[float, float]]
     first: Difference | None
     diagnosis: Diagnosis
+    failures: tuple[str, str]
 
 
-def explain(
-    works: Replay, fails: Replay, messages: tuple[Mapping[str, int], Mapping[str, int]]
+def record_and_explain(
+    campaign: Campaign,
+    effects: tuple[Effects, Effects],
+    place: int,
+    files: tuple[Path, Path],
+    executor: Executor | None = None,
 ) -> Explanation:
-    """Compare two recorded runs of the same scenario and seed, with different effects.
+    """Record the run at a position with two sets of effects, and compare the recordings.
 
-    `messages` are the outcomes of the messages of both, as `Campaign.record` returns them.
+    Args:
+        campaign: The configuration.
+        effects: Those with which it works, and those with which it fails.
+        place: Position of the run.
+        files: Replays to write.
+        executor: Executes the runs, see `Campaign.observations`; None for this process.
     """
+    with TemporaryDirectory() as folder:
+        rests = [Path(folder, name) for name in ("works", "fails")]
+        calls = [
+            partial(record_to_files, campaign, *arguments)
+            for arguments in zip(effects, (place, place), files, rests, strict=True)
+        ]
+        for done in [executor.submit(call) for call in calls] if executor is not None else ():
+            done.result()
+        if executor is None:
+            for call in calls:
+                call()
+        return explain(*map(read_recording, files, rests))
+
+
+def explain(works: Recording, fails: Recording) -> Explanation:
+    """Compare two recorded runs of the same scenario and seed, with different effects."""
+    both = (works, fails)
     given_up = [
-        {name: each.get(name, 0) / max(1, sum(each.values())) for name in LOST_MESSAGES} for each in messages
+        {name: each.get(name, 0) / max(1, sum(each.values())) for name in LOST_MESSAGES}
+        for each in (recording.recorded.messages for recording in both)
     ]
     return Explanation(
-        _side_by_side(_ratios(works), _ratios(fails)),
+        _side_by_side(_ratios(works.replay), _ratios(fails.replay)),
         _side_by_side(*given_up),
-        _first_difference(works, fails),
-        diagnose(fails),
+        first_difference(works, fails),
+        diagnose(fails.replay),
+        (works.recorded.failure, fails.recorded.failure),
     )
 
 
@@ -82,68 +96,24 @@ def _side_by_side(
 def _ratios(replay: Replay) -> Mapping[str, float]:
     """Return the ratio of each outcome of losses among the receptions at addressees of messages.
 
-    Receptions that are too weak count among all, others among those that receivers noticed.
+    Receptions that are too weak count among all, others among those that receivers noticed. Frames in the air
+    at the end of the run do not count.
     """
-    counts: Counter[str] = Counter(outcome for *_, outcome in _receptions(replay))
-    noticed = counts.total()
     frames: Any = replay.table("frames")
+    receptions = list(replay.receptions())
+    ended = Counter(frame for frame, _, outcome in receptions if outcome != "in_air")
     addressees = 0
-    for kind, destination, receptions, unnoticed in zip(
-        frames["kind"], frames["destination"], frames["receptions"], frames["unnoticed"], strict=True
-    ):
-        if kind in _DATA:
-            addressees += receptions + unnoticed if destination == BROADCAST else 1
+    complete = set()
+    for frame, kind in enumerate(frames["kind"]):
+        noticed, unnoticed = frames["receptions"][frame], frames["unnoticed"][frame]
+        if kind in _DATA and ended[frame] == noticed:
+            complete.add(frame)
+            addressees += noticed + unnoticed if frames["destination"][frame] == BROADCAST else 1
+    counts = Counter(
+        outcome
+        for frame, receiver, outcome in receptions
+        if frame in complete and frames["destination"][frame] in (BROADCAST, receiver)
+    )
+    noticed = counts.total()
     lost = {outcome: count / noticed for outcome, count in counts.items() if outcome not in NOT_LOST}
     return lost | {_TOO_WEAK: 1 - noticed / addressees if addressees else 0.0}
-
-
-def _receptions(replay: Replay) -> Iterator[tuple[int, int, str]]:
-    """Yield (frame, receiver, outcome) of the receptions of messages at their addressees."""
-    frames: Any = replay.table("frames")
-    for frame, receiver, outcome in replay.receptions():
-        if frames["kind"][frame] in _DATA and frames["destination"][frame] in (BROADCAST, receiver):
-            yield frame, receiver, outcome
-
-
-def _first_difference(works: Replay, fails: Replay) -> Difference | None:
-    """Compare frames by sender and their number among the frames of the sender."""
-    tables: list[Any] = [each.table("frames") for each in (works, fails)]
-    outcomes = [_by_number(each, table) for each, table in zip((works, fails), tables, strict=True)]
-    sent = [_sent(table) for table in tables]
-    names = {node["id"]: node["name"] for node in fails.run["nodes"]}
-    found: list[tuple[int, Difference]] = []
-    for key in outcomes[0].keys() | outcomes[1].keys():
-        sender, receiver, number = key
-        before, after = (
-            outcome.get(key, _TOO_WEAK if (sender, number) in frames else "")
-            for outcome, frames in zip(outcomes, sent, strict=True)
-        )
-        if before != after:
-            table = 1 if after else 0
-            frame = sent[table][sender, number]
-            time_ns, cause = tables[table]["time_ns"][frame], tables[table]["cause"][frame]
-            difference = Difference(time_ns / _NS_PER_S, names[sender], names[receiver], cause, before, after)
-            found.append((time_ns, difference))
-    return min(found, key=lambda each: (each[0], each[1].receiver))[1] if found else None
-
-
-def _by_number(replay: Replay, frames: Any) -> dict[tuple[int, int, int], str]:
-    """Return {(sender, receiver, number of the frame among the sender's): outcome}."""
-    numbers = {frame: key for key, frame in _sent(frames).items()}
-    found = {}
-    for frame, receiver, outcome in _receptions(replay):
-        if outcome != "in_air":
-            sender, number = numbers[frame]
-            found[sender, receiver, number] = outcome
-    return found
-
-
-def _sent(frames: Any) -> dict[tuple[int, int], int]:
-    """Return {(sender, number of the frame among the sender's): frame} of the frames of messages."""
-    count: Counter[int] = Counter()
-    found = {}
-    for frame, (sender, kind) in enumerate(zip(frames["node"], frames["kind"], strict=True)):
-        if kind in _DATA:
-            found[sender, count[sender]] = frame
-            count[sender] += 1
-    return found

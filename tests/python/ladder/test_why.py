@@ -7,8 +7,7 @@ import pytest
 
 from gradysim.ladder.campaign import Campaign
 from gradysim.ladder.explanation_words import explanation_sentences
-from gradysim.ladder.why import Explanation, explain
-from gradysim.replay.reader import read_replay
+from gradysim.ladder.why import Explanation, record_and_explain
 
 
 @pytest.fixture
@@ -20,12 +19,10 @@ def explanation_of(
     def explanation(effect: str, *settings: str) -> tuple[Explanation, str]:
         campaign = make_campaign(*settings)
         fails = [level.name for level in campaign.levels].index(effect)
-        files = [tmp_path / "works.html", tmp_path / "fails.html"]
-        before, after = (
-            campaign.record(campaign.effects_up_to(level), 0, file)
-            for level, file in zip((fails - 1, fails), files, strict=True)
-        )
-        found = explain(read_replay(files[0]), read_replay(files[1]), (before, after))
+        files = (tmp_path / "works.html", tmp_path / "fails.html")
+        effects = (campaign.effects_up_to(fails - 1), campaign.effects_up_to(fails))
+        found = record_and_explain(campaign, effects, 0, files)
+        assert all(file.stat().st_size for file in files)
         return found, "\n".join(explanation_sentences(found, fails - 1, fails))
 
     return explanation
@@ -35,10 +32,10 @@ def test_losses_to_other_frames(explanation_of: Callable[..., tuple[Explanation,
     found, text = explanation_of("interference")
     assert next(iter(found.losses.items())) == ("receiver_transmitting", (0, 1))
     assert found.first is not None
-    assert (found.first.time_s, found.first.cause) == (1, "timer beacon")
-    assert (found.first.before, found.first.after) == ("delivered", "receiver_transmitting")
+    assert (found.first.time_s, found.first.event.cause) == (1, "timer beacon")
+    assert found.first.outcomes == ("delivered", "receiver_transmitting")
     assert "Receptions lost to `receiver transmitting`: 100.0% at level 4, 0.0% at level 3." in text
-    assert 'the frame of timer "beacon" from nodes[' in text
+    assert 'the message of timer "beacon" from nodes[' in text
 
 
 def test_receptions_out_of_range(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
@@ -61,6 +58,28 @@ def test_messages_that_did_not_fit_into_the_queue(
 
 
 def test_only_times_differ(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
-    found, text = explanation_of("airtime")
+    found, text = explanation_of("airtime", "**.protocol.step=0.01")
+    assert found.first is not None
+    assert found.first.kind == "time"
+    assert "µs later at level 2 than at level 1." in text
+
+
+def test_frames_in_the_air_at_the_end_are_not_out_of_range(
+    explanation_of: Callable[..., tuple[Explanation, str]],
+) -> None:
+    """The last beacons start when the run ends."""
+    found, text = explanation_of("airtime", "sim-time-limit=2s")
+    assert found.losses == {"below_sensitivity": (0, 0)}
+    assert "out of range" not in text
+
+
+def test_nothing_differs(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
+    found, text = explanation_of("range")
     assert found.first is None
-    assert text.endswith("All frames have the same outcomes at both levels. Times or positions differ.")
+    assert "do the same at both levels" in text
+
+
+def test_the_exception_of_a_run_is_named(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
+    found, text = explanation_of("range", "**.protocol.interval=-1")
+    assert found.failures[0] == found.failures[1] != ""
+    assert "ends with an exception: " in text
