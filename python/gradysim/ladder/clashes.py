@@ -1,31 +1,33 @@
-"""Clashes: which timers of which nodes send into each other, from the replay of a run."""
+"""Clashes: which timers of which nodes send into each other, from the replays of runs."""
 
 import math
 from bisect import bisect_left, bisect_right
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from statistics import median
 from typing import Any, Literal
 
+from gradysim.ladder.callbacks import without_numbers
 from gradysim.replay.reader import Replay
 from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
 from gradysim.results.tracked_variables import group_of
 
-Verdict = Literal["saturated", "hidden", "synchronized", "drifting", "random"]
+Verdict = Literal["saturated", "hidden", "synchronized", "drifting", "hidden and drifting", "random"]
 
-_LOST_TO_OTHERS = {
-    OUTCOMES.index(name)
-    for name in (
-        "interference",
-        "receiver_transmitting",
-        "receiver_locked",
-        "captured",
-        "preamble_undetected",
-    )
-}
+LOST_TO_OTHERS = (
+    "interference",
+    "receiver_transmitting",
+    "receiver_locked",
+    "captured",
+    "preamble_undetected",
+)
+"""Outcomes of receptions that are lost to another frame."""
+
+_LOST_TO_OTHERS = {OUTCOMES.index(name) for name in LOST_TO_OTHERS}
+_IN_AIR = OUTCOMES.index("in_air")
 _TIMER = "timer "
 _ANSWER = "packet"
 _DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
@@ -51,7 +53,10 @@ _MORE_THAN_CHANCE = 3
 
 @dataclass(frozen=True)
 class Origin:
-    """What sent a frame: a callback of a group of nodes, such as `timer heartbeat` of `uavs[*]`."""
+    """What sent a frame: a callback of a group of nodes, such as `timer heartbeat` of `uavs[*]`.
+
+    Timers that differ in numbers alone are one: `timer retry-#`.
+    """
 
     group: str
     cause: str
@@ -66,7 +71,7 @@ class Origin:
 
     @property
     def timer(self) -> str:
-        """Name of the timer."""
+        """Name of the timer, with "#" for numbers."""
         return self.cause.removeprefix(_TIMER)
 
 
@@ -119,12 +124,12 @@ class Pattern:
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """Clashes of a run.
+    """Clashes of one or several runs.
 
     Attributes:
-        receptions: Number of receptions that their receivers noticed.
+        receptions: Number of receptions that their receivers noticed, without those in progress at the end.
         clashes: Number of them that other frames destroyed.
-        busiest: Largest share of the time that frames fill at a receiver.
+        busiest: Largest share of the time that frames fill at a receiver, in any run.
         patterns: By origins, the most frequent ones first.
         airtime_s: Median duration of the lost frames; 0 without clashes.
     """
@@ -156,7 +161,35 @@ def diagnose(replay: Replay) -> Diagnosis:
     ]
     patterns.sort(key=lambda pattern: -pattern.count)
     airtime_s = median(each.airtime_s for each in clashes) if clashes else 0.0
-    return Diagnosis(len(run.receptions), len(clashes), run.busiest, tuple(patterns), airtime_s)
+    ended = sum(outcome != _IN_AIR for *_, outcome in run.receptions)
+    return Diagnosis(ended, len(clashes), run.busiest, tuple(patterns), airtime_s)
+
+
+def merged(diagnoses: Sequence[Diagnosis]) -> Diagnosis:
+    """Return the clashes of all these runs.
+
+    A pattern has the verdict of most of its clashes, and the times of the run that has most of them.
+    """
+    by_origins: defaultdict[tuple[Origin, ...], list[Pattern]] = defaultdict(list)
+    for diagnosis in diagnoses:
+        for pattern in diagnosis.patterns:
+            by_origins[pattern.origins].append(pattern)
+    patterns = []
+    for alike in by_origins.values():
+        verdicts: Counter[Verdict] = Counter()
+        for pattern in alike:
+            verdicts[pattern.verdict] += pattern.count
+        ((verdict, _),) = verdicts.most_common(1)
+        most = max((each for each in alike if each.verdict == verdict), key=lambda each: each.count)
+        patterns.append(replace(most, count=verdicts.total()))
+    airtimes = [each.airtime_s for each in diagnoses if each.clashes]
+    return Diagnosis(
+        sum(each.receptions for each in diagnoses),
+        sum(each.clashes for each in diagnoses),
+        max((each.busiest for each in diagnoses), default=0.0),
+        tuple(sorted(patterns, key=lambda pattern: -pattern.count)),
+        median(airtimes) if airtimes else 0.0,
+    )
 
 
 def _verdict(clashes: Sequence[Clash], run: "_Run") -> Verdict:
@@ -164,11 +197,10 @@ def _verdict(clashes: Sequence[Clash], run: "_Run") -> Verdict:
         return "saturated"
     if _is_synchronized(clashes, run):
         return "synchronized"
+    is_hidden = sum(each.is_hidden for each in clashes) >= _MOST * len(clashes)
     if _drifts(clashes):
-        return "drifting"
-    if sum(each.is_hidden for each in clashes) >= _MOST * len(clashes):
-        return "hidden"
-    return "random"
+        return "hidden and drifting" if is_hidden else "drifting"
+    return "hidden" if is_hidden else "random"
 
 
 def _is_synchronized(clashes: Sequence[Clash], run: "_Run") -> bool:
@@ -206,6 +238,7 @@ class _Run:
     def __init__(self, replay: Replay) -> None:
         self._groups = {node["id"]: group_of(node["name"]) for node in replay.run["nodes"]}
         self._frames: dict[str, Any] = replay.table("frames")
+        self._causes = [without_numbers(cause) for cause in self._frames["cause"]]
         self._ends = [
             start + duration
             for start, duration in zip(self._frames["time_ns"], self._frames["duration_ns"], strict=True)
@@ -291,12 +324,12 @@ class _Run:
         return self._frames["destination"][frame] in (BROADCAST, receiver)
 
     def _origin(self, frame: int) -> Origin:
-        return Origin(self._groups[self._frames["node"][frame]], self._frames["cause"][frame])
+        return Origin(self._groups[self._frames["node"][frame]], self._causes[frame])
 
     def _due_ns(self, frame: int) -> int:
         """Return when the timer expired or the message arrived that sent a frame, or the frame's start."""
         start: int = self._frames["time_ns"][frame]
-        cause: str = self._frames["cause"][frame]
+        cause = self._causes[frame]
         node = self._frames["node"][frame]
         times: Sequence[int] = ()
         if cause.startswith(_TIMER):
@@ -354,9 +387,9 @@ def _interferers(replay: Replay) -> dict[tuple[int, int], set[int]]:
 
 
 def _timers(replay: Replay) -> dict[tuple[int, str], list[int]]:
-    """Return {(node, timer): times at which it expired, in ns}."""
+    """Return {(node, timer without numbers): times at which it expired, in ns}."""
     found: defaultdict[tuple[int, str], list[int]] = defaultdict(list)
     for time_ns, node, kind, text in zip(*replay.table("events").values(), strict=True):
         if EVENT_KINDS[kind] == "timer":
-            found[node, text].append(time_ns)
+            found[node, without_numbers(text)].append(time_ns)
     return found

@@ -6,9 +6,11 @@ from gradysim.ladder.clashes import Diagnosis, Pattern
 from gradysim.ladder.desync import Desync
 
 _BECAUSE = {
-    "synchronized": "fire together, {apart} apart, every {period}",
-    "drifting": "drift past each other: they come close again and again, every {period}",
+    "synchronized": "fire together, {apart} apart{every}",
+    "drifting": "drift past each other: they come close again and again{every}",
     "hidden": "come from nodes that do not hear each other, so jitter does not help",
+    "hidden and drifting": "drift past each other, and come from nodes that do not hear each other: agree on"
+    " a clock, or use RTS and CTS",
     "saturated": "fill the channel, so jitter does not help: send less or shorter frames",
     "random": "meet by chance, {apart} apart",
 }
@@ -59,7 +61,8 @@ def pattern_sentences(diagnosis: Diagnosis, most: int) -> Iterator[str]:
 def _text_of_pattern(pattern: Pattern) -> str:
     is_answer = pattern.verdict == "synchronized" and not all(each.is_timer for each in pattern.origins)
     because = (_ANSWERS if is_answer else _BECAUSE[pattern.verdict]).format(
-        apart=text_of_time(pattern.apart_s), period=text_of_time(pattern.period_s)
+        apart=text_of_time(pattern.apart_s),
+        every=f", every {text_of_time(pattern.period_s)}" if pattern.period_s else "",
     )
     return f"{' and '.join(map(str, pattern.origins))}: {because}"
 

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
 
+from gradysim.ladder.callbacks import without_numbers
 from gradysim.results.scenario_run import ScenarioRun
 from gradysim.results.tracked_variables import group_of
 from gradysim.scenario.node_spec import NodeSpec
@@ -15,7 +16,7 @@ class Jitter:
     """A delay that is drawn for each of some timers, from 0 to `longest_s`.
 
     Attributes:
-        timers: (group of nodes, name of the timer).
+        timers: (group of nodes, name of the timer, with "#" for numbers).
         longest_s: Largest delay in seconds.
     """
 
@@ -34,14 +35,14 @@ class Jitter:
                 provider.schedule_timer = self._delayed(provider.schedule_timer, names, stream)
 
     def timers_of(self, spec: NodeSpec) -> set[str]:
-        """Return the names of the delayed timers of a node."""
+        """Return the names of the delayed timers of a node, without numbers."""
         return {timer for group, timer in self.timers if group == group_of(spec.name)}
 
     def _delayed(
         self, schedule: Callable[[str, float], None], names: set[str], stream: Random
     ) -> Callable[[str, float], None]:
         def schedule_later(timer: str, timestamp: float) -> None:
-            delay_s = stream.uniform(0, self.longest_s) if timer in names else 0.0
+            delay_s = stream.uniform(0, self.longest_s) if without_numbers(timer) in names else 0.0
             schedule(timer, timestamp + delay_s)
 
         return schedule_later

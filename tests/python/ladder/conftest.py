@@ -23,13 +23,15 @@ class Beacon(Quiet):
     answers: bool = False
     sends: bool = True
     step: float = 0.0
+    timer: str = "beacon"
     def initialize(self):
         self.provider.tracked_variables["heard"] = 0
         self.due = self.first + self.step * self.provider.get_id()
         if self.sends:
             self.schedule()
     def schedule(self):
-        self.provider.schedule_timer("beacon", self.due + self.provider.random.uniform(0, self.spread))
+        timer = self.timer.replace("#", str(round(10 * self.due)))
+        self.provider.schedule_timer(timer, self.due + self.provider.random.uniform(0, self.spread))
     def say(self, text):
         self.provider.send_communication_command(BroadcastMessageCommand(text.ljust(self.size)))
     def handle_timer(self, timer):

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from gradysim.ladder.clashes import Diagnosis
+from gradysim.ladder.clashes import Diagnosis, Origin, Pattern, merged
 
 HIDDEN = "*.nodes[*].mobility.lineStepX=70m"
 """Nodes 0 and 2 are 140 m apart and do not hear each other. Node 1 hears both."""
@@ -49,7 +49,7 @@ def test_timers_of_hidden_nodes_with_different_periods_drift(diagnosis_of: Calla
     periods = "*.nodes[0].protocol.interval=0.02", "*.nodes[2].protocol.interval=0.02002"
     long = "**.protocol.size=1000"
     assert verdicts(diagnosis_of(HIDDEN, MIDDLE_LISTENS, long, *periods, "sim-time-limit=30s")) == [
-        "drifting"
+        "hidden and drifting"
     ]
 
 
@@ -74,6 +74,48 @@ def test_answers_to_the_same_message_are_synchronized(diagnosis_of: Callable[...
     (pattern,) = diagnosis.patterns
     assert [str(origin) for origin in pattern.origins] == ["handle_packet of nodes[*]"]
     assert pattern.verdict == "synchronized"
+
+
+def test_timers_that_differ_in_numbers_are_one(diagnosis_of: Callable[..., Diagnosis]) -> None:
+    (pattern,) = diagnosis_of("**.protocol.timer=beat-#").patterns
+    assert [str(origin) for origin in pattern.origins] == ['timer "beat-#" of nodes[*]']
+    assert pattern.verdict == "synchronized"
+    assert abs(pattern.period_s - 0.1) < 1e-9
+
+
+def test_frames_in_the_air_at_the_end_are_not_received(diagnosis_of: Callable[..., Diagnosis]) -> None:
+    """The second beacons start when the run ends."""
+    assert diagnosis_of("**.protocol.step=0.01", "sim-time-limit=1.1s").receptions == 3 * 2
+
+
+ONE, OTHER = Origin("nodes[*]", "timer one"), Origin("base", "timer other")
+
+
+def test_patterns_of_several_runs_are_merged() -> None:
+    """A pattern has the verdict of most clashes, and the times of the run with most of them."""
+    runs = [
+        Diagnosis(10, 2, 0.1, (Pattern((ONE,), 2, "random", 1, 0.3),), 0.001),
+        Diagnosis(20, 0, 0.3, (), 0),
+        Diagnosis(
+            30,
+            5,
+            0.2,
+            (Pattern((ONE,), 4, "synchronized", 2, 0.1), Pattern((ONE, OTHER), 1, "hidden", 3, 0.2)),
+            0.003,
+        ),
+        Diagnosis(40, 1, 0.2, (Pattern((ONE,), 1, "synchronized", 4, 0.4),), 0.002),
+    ]
+    assert merged(runs) == Diagnosis(
+        100,
+        8,
+        0.3,
+        (Pattern((ONE,), 7, "synchronized", 2, 0.1), Pattern((ONE, OTHER), 1, "hidden", 3, 0.2)),
+        0.002,
+    )
+
+
+def test_no_runs_have_no_clashes() -> None:
+    assert merged([]) == Diagnosis(0, 0, 0, (), 0)
 
 
 def test_no_clashes(diagnosis_of: Callable[..., Diagnosis]) -> None:

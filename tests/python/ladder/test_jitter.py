@@ -41,6 +41,12 @@ def test_delays_depend_on_the_seed_of_the_run(make_campaign: Callable[..., Campa
     assert sent(campaign, jitter, place=0) != sent(campaign, jitter, place=1)
 
 
+def test_timers_that_differ_in_numbers_are_one(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign("sim-time-limit=1.05s", "**.protocol.timer=beat-#")
+    delays = [time_s - 1 for time_s in sent(campaign, Jitter(frozenset({("nodes[*]", "beat-#")}), 0.02))]
+    assert all(0 < delay <= 0.02 for delay in delays)
+
+
 def test_other_timers_and_groups_stay_on_time(make_campaign: Callable[..., Campaign]) -> None:
     campaign = make_campaign("sim-time-limit=1.05s")
     others = frozenset({("nodes[*]", "another"), ("uavs[*]", "beacon"), ("nodes", "beacon")})
