@@ -24,6 +24,7 @@ OutputOption = Annotated[
 
 def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported")) -> int:
     """Translate an .ini file of OMNeT++, and list what was done with each line."""
+    from gradysim.encapsulator.run_context import gc_paused
     from gradysim.omnetpp_import import translate
     from gradysim.scenario.errors import ConfigError
 
@@ -32,7 +33,8 @@ def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported"
         print(f"{target} is there already; expected another directory: -o DIR", file=sys.stderr)
         return MISTAKE
     try:
-        translation = translate(file, output)
+        with gc_paused():  # nothing of what is read is garbage
+            translation = translate(file, output)
         output.mkdir(parents=True, exist_ok=True)
         target.write_text(translation.text, encoding="utf-8")
     except (ConfigError, OSError) as mistake:

@@ -1,6 +1,7 @@
 """What a file of OMNeT++ does not say: the defaults of its NED file, and lines that only the user knows."""
 
-from collections.abc import Iterable, Iterator, Sequence
+import contextlib
+from collections.abc import Iterable, Iterator
 
 from gradysim.omnetpp_import.lines import CLASS_TO_WRITE, Action, Outcome
 from gradysim.omnetpp_import.ned import NedNetwork, NedNode
@@ -15,7 +16,7 @@ from gradysim.scenario.errors import BadValue
 from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, RECTANGLE, engine_key
-from gradysim.scenario.patterns import compile_pattern
+from gradysim.scenario.patterns import PatternIndex, compile_pattern
 
 _MEDIA = engine_key("medium.typename").kind.names
 
@@ -23,20 +24,36 @@ _SOME_OTHER = 999_999
 """Index of a node that only lines for all nodes match."""
 
 
-def translated_lines(outcomes: Iterable[Outcome]) -> list[Entry]:
-    """Return the lines of the translated file, and those that the user writes."""
-    return [
+_NETWORK = "N"
+
+Lines = PatternIndex[Entry]
+"""Lines by the patterns of their keys; whatever network a line names is the one of the file."""
+
+
+def indexed(entries: Iterable[Entry]) -> Lines:
+    """Return lines by their patterns."""
+    index = Lines()
+    for entry in entries:
+        network, dot, path = entry.key.partition(".")
+        if dot:
+            with contextlib.suppress(BadValue):  # not a pattern
+                key = f"{_NETWORK}.{path}" if network.isidentifier() else entry.key
+                index.add(compile_pattern(key), entry)
+    return index
+
+
+def translated_lines(outcomes: Iterable[Outcome]) -> Iterator[Entry]:
+    """Yield the lines of the translated file, and those that the user writes."""
+    return (
         Entry(key, text, outcome.entry.source)
         for outcome in outcomes
         if outcome.entry and outcome.action is not Action.NOT_MODELLED
         for key, equals, text in [outcome.text.partition(" = ")]
         if equals
-    ]
+    )
 
 
-def defaults_of(
-    network: NedNetwork, entries: Sequence[Entry], lines: Sequence[Entry], in_force: Sequence[Entry]
-) -> Iterator[Outcome]:
+def defaults_of(network: NedNetwork, entries: Lines, lines: Lines, in_force: Lines) -> Iterator[Outcome]:
     """Yield the defaults of a network, except those that lines in force in all configurations override.
 
     Args:
@@ -77,13 +94,13 @@ def defaults_of(
             yield from default(f"{node.written}.mobility.{name}", f"{node.first}.mobility.{name}", value)
 
 
-def _mobility(node: NedNode, entries: Iterable[Entry]) -> str:
+def _mobility(node: NedNode, entries: Lines) -> str:
     """Return the first mobility that the file gives a node."""
     text = next(_texts_for(f"{node.first}.mobility.typename", entries), DEFAULT_MOBILITY)
     return unquoted(text) if is_quoted(text) else text
 
 
-def _place(node: NedNode, mobility: str, entries: Sequence[Entry], lines: Sequence[Entry]) -> dict[str, str]:
+def _place(node: NedNode, mobility: str, entries: Lines, lines: Lines) -> dict[str, str]:
     """Return {parameter: value} of where a node starts if no line says it."""
     if mobility in (CIRCLE, RECTANGLE):
         return {}
@@ -102,27 +119,16 @@ def _place(node: NedNode, mobility: str, entries: Sequence[Entry], lines: Sequen
     return places
 
 
-def _is_set(path: str, entries: Iterable[Entry]) -> bool:
-    return next(_texts_for(path, entries), None) is not None
+def _is_set(path: str, lines: Lines) -> bool:
+    return next(_texts_for(path, lines), None) is not None
 
 
-def _texts_for(path: str, entries: Iterable[Entry]) -> Iterator[str]:
+def _texts_for(path: str, lines: Lines) -> Iterator[str]:
     """Yield the values of the lines that match a path below the network."""
-    for entry in entries:
-        if "." not in entry.key:
-            continue
-        try:
-            pattern = compile_pattern(entry.key)
-        except BadValue:
-            continue
-        network = entry.key.partition(".")[0]
-        if pattern.matches(f"{network if network.isidentifier() else 'N'}.{path}"):
-            yield entry.text
+    return (entry.text for entry in lines.matching(f"{_NETWORK}.{path}"))
 
 
-def missing_classes(
-    network: NedNetwork, entries: Sequence[Entry], lines: Sequence[Entry]
-) -> Iterator[Outcome]:
+def missing_classes(network: NedNetwork, entries: Lines, lines: Lines) -> Iterator[Outcome]:
     """Yield a line for the protocol of each group of nodes for which `lines` have none.
 
     A single node also needs one if only a line with wildcards matches it.
@@ -131,9 +137,10 @@ def missing_classes(
     """
     for node in network.nodes:
         last = f"{node.name}[{_SOME_OTHER}]" if node.size else node.name
-        if chosen := next(_texts_for(f"{last}.{PROTOCOL_CLASS.path}", lines), ""):
+        if found := lines.matching(f"{_NETWORK}.{last}.{PROTOCOL_CLASS.path}"):
+            chosen = found[0].text
             if not node.size and not any(
-                f".{node.name}." in line.key for line in lines if chosen == line.text
+                f".{node.name}." in line.key for line in found if chosen == line.text
             ):
                 note = "a single node is one that a line names"
                 yield Outcome(Action.ADDED, None, f"*.{last}.{PROTOCOL_CLASS.path} = {chosen}", note)

@@ -1,11 +1,12 @@
 """Translates single lines: kept, renamed, left out, or to be written by the user."""
 
 import contextlib
+import fnmatch
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from fnmatch import fnmatchcase
+from functools import lru_cache
 from pathlib import Path
 
 from gradysim.omnetpp_import.tables import (
@@ -30,6 +31,7 @@ from gradysim.omnetpp_import.tables import (
     UNIT_DISK_MEDIUM,
     VALUES,
 )
+from gradysim.protocol.defaults import MOST_INTERFACES
 from gradysim.protocol.position import geo_to_cartesian
 from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.expressions import ParameterContext, parse_value
@@ -94,7 +96,6 @@ class LineTranslator:
             size_keys: {parameter of the network: the key for the number of nodes here}.
             folder: The directory of the file, from that of the translation.
         """
-        self._entries = entries
         self._size_keys = size_keys
         self._folder = folder
         self._has_area = any(
@@ -102,6 +103,17 @@ class LineTranslator:
             and re.search("LinearMobility|RectangleMobility", entry.text)
             for entry in entries
         )
+        self._of_protocols: dict[str, dict[str, Entry]] = {}
+        for entry in entries:
+            module, _, name = entry.key.rpartition(".")
+            if module.endswith(".protocol"):
+                self._of_protocols.setdefault(module, {})[name] = entry
+        self._scene = [entry for entry in entries if "coordinateSystem." in entry.key]
+        self._geographic_groups = {
+            _group(entry.key)
+            for entry in entries
+            if entry.key.endswith(".coordinateSystemModule") and entry.text != '""'
+        }
 
     def outcome(self, entry: Entry) -> Outcome:
         """Return what becomes of a line."""
@@ -130,14 +142,14 @@ class LineTranslator:
         for end, values in VALUES.items():
             if f".{key}".endswith(f".{end}"):
                 return self._checked(entry, key, _with_values(entry.text, values))
-        if _own_keys(entry, key):
+        if _own_keys(key):
             return self._checked(entry, key, entry.text)
         return _without_counterpart(entry, parts)
 
     def _checked(self, entry: Entry, key: str, text: str) -> Outcome:
         """Return the outcome of a line with a key of this simulator: its value may not be one."""
         line = f"{key} = {text}"
-        keys = _own_keys(entry, key)
+        keys = _own_keys(key)
         if wrong := _wrong_value(entry, key, text, keys):
             if all(each.kind.names and each not in MOBILITY_KEYS for each in keys):  # one of some models
                 return _not_modelled(entry, wrong)
@@ -168,16 +180,13 @@ class LineTranslator:
 
     def _is_geographic(self, mobility: str) -> bool:
         """Return whether nodes of that name have geographic positions."""
-        group = _group(mobility)
-        return any(
-            entry.key.endswith(".coordinateSystemModule")
-            and entry.text != '""'
-            and fnmatchcase(group, _group(entry.key))
-            for entry in self._entries
+        group, groups = _group(mobility), self._geographic_groups
+        return group in groups or any(
+            fnmatch.fnmatchcase(group, each) for each in groups if not each.isidentifier()
         )
 
     def _of_scene(self, parameter: str, unit: str) -> float:
-        for entry in self._entries:
+        for entry in self._scene:
             if entry.key.endswith(f"coordinateSystem.{parameter}"):
                 with contextlib.suppress(BadValue):
                     return _number_in(unit, entry.text)
@@ -185,7 +194,7 @@ class LineTranslator:
 
     def _protocol(self, entry: Entry, node: str, name: str) -> Outcome:
         """Translate a parameter of a protocol. In GrADyS' project, several name a class in Python."""
-        python = {other.key.rpartition(".")[2]: other for other in self._entries if self._is_of(other, node)}
+        python = self._of_protocols.get(f"{node}.protocol", {})
         class_key = next((key for key in CLASS_NAMES if key in python), PROTOCOL)
         if name == "typename":
             protocol = unquoted(entry.text) if is_quoted(entry.text) else entry.text
@@ -203,10 +212,6 @@ class LineTranslator:
         folders += [texts[PROTOCOL]] if class_key != PROTOCOL and PROTOCOL in texts else []
         file = Path(*folders) / f"{texts[FILE_NAME].removesuffix('.py')}.py"
         return _renamed(entry, f"{node}.protocol.class", f'"{file.as_posix()}:{texts[class_key]}"')
-
-    @staticmethod
-    def _is_of(entry: Entry, node: str) -> bool:
-        return entry.key.startswith(f"{node}.protocol.") and "." not in entry.key[len(node) + 10 :]
 
 
 def _group(key: str) -> str:
@@ -242,18 +247,29 @@ def _without_counterpart(entry: Entry, parts: Sequence[str]) -> Outcome:
         is_known = values <= NODE_TYPES.keys() - NOT_MODELLED_NODES.keys()
         return _left_out(entry, NO_NODE_TYPE) if is_known else _not_modelled(entry, NO_NODE_TYPE)
     names = [re.sub(r"[\[{].*", "", part) for part in parts[1:]]
-    if reason := _reason(names, NO_MEANING):
+    if reason := _MEANINGLESS.of_first(names):
         return _left_out(entry, reason)
-    reason = _reason(reversed(names), NOT_MODELLED)
+    reason = _NOT_MODELLED.of_first(reversed(names))
     if any(entry.key.endswith(f".{end}") and values <= as_here for end, as_here in AS_HERE.items()):
         return _left_out(entry, reason or "it is so here")
     return _not_modelled(entry, reason or "there is no such parameter")
 
 
-def _reason(names: Iterable[str], reasons: Mapping[str, str]) -> str:
-    """Return the reason for the first name that one of the patterns matches; "" if there is none."""
-    matches = (reason for name in names for pattern, reason in reasons.items() if fnmatchcase(name, pattern))
-    return next(matches, "")
+class _Reasons:
+    """Reasons by the patterns of names that they are for."""
+
+    def __init__(self, reasons: Mapping[str, str]) -> None:
+        self._reasons = tuple(reasons.values())
+        self._pattern = re.compile("|".join(f"({fnmatch.translate(pattern)})" for pattern in reasons))
+
+    def of_first(self, names: Iterable[str]) -> str:
+        """Return the reason for the first name that one of the patterns matches; "" if there is none."""
+        matches = (match for name in names if (match := self._pattern.match(name)))
+        match = next(matches, None)
+        return self._reasons[match.lastindex - 1] if match and match.lastindex else ""
+
+
+_MEANINGLESS, _NOT_MODELLED = _Reasons(NO_MEANING), _Reasons(NOT_MODELLED)
 
 
 def _values_in(text: str) -> list[str]:
@@ -275,7 +291,7 @@ def _option(entry: Entry) -> Outcome:
     if is_ignored(entry):
         return _left_out(entry, "only OMNeT++ reads it")
     for option, instead in REFUSED_OPTIONS.items():
-        if fnmatchcase(entry.key, option):
+        if fnmatch.fnmatchcase(entry.key, option):
             return _not_modelled(entry, instead)
     return _not_modelled(entry, "there is no such option")
 
@@ -295,37 +311,70 @@ def _number_in(unit: str, text: str) -> float:
     return float(number_in(unit).convert(parse_value(text)))
 
 
-def _own_keys(entry: Entry, key: str = "") -> list[Key]:
+class _Keys:
+    """Keys by their paths, and by the last name of these, which most patterns have, too."""
+
+    def __init__(self, keys: Iterable[tuple[str, Key]]) -> None:
+        """Take each key with its path; those of interfaces get the path of each index."""
+        self._by_path = {
+            path.replace(WLAN, f"wlan[{index}]"): key
+            for path, key in keys
+            for index in range(MOST_INTERFACES)
+        }
+        self._by_name: dict[str, dict[str, Key]] = {}
+        for path, key in self._by_path.items():
+            self._by_name.setdefault(path.rpartition(".")[2], {})[path] = key
+
+    def matching(self, pattern: Pattern) -> list[Key]:
+        """Return the keys that a pattern matches."""
+        name = pattern.tail.literal if pattern.tail else None
+        keys = self._by_path if name is None else self._by_name.get(name, {})
+        return list(dict.fromkeys(key for path, key in keys.items() if pattern.matches(path)))
+
+
+_OF_NODES = _Keys((key.path, key) for key in NODE_KEYS)
+_OF_MODULES = {
+    module: _Keys(
+        (key.path.removeprefix(f"{module}."), key)
+        for key in NETWORK_KEYS
+        if key.path.startswith(f"{module}.")
+    )
+    for module in NETWORK_MODULES
+}
+_OF_NODES_IN_FULL = _Keys((f"N.n[0].{key.path}", key) for key in NODE_KEYS)
+_OF_NETWORK_IN_FULL = _Keys((f"N.{key.path}", key) for key in NETWORK_KEYS)
+
+
+_UNCERTAIN = re.compile(r"\*\*|\.\.|[{\\]")
+"""What makes a part of a key more than one part, or not a pattern."""
+
+
+def _own_keys(key: str) -> Sequence[Key]:
     """Return the keys of this simulator that the key of a line matches, judged by what is below a name."""
+    network, name, *below = _PART.findall(key) if key.count(".") > 1 else (key, "")
+    if below and not _UNCERTAIN.search(f"{network} {name}"):
+        return _keys_below(name if name in NETWORK_MODULES else "", ".".join(below))
     try:
-        pattern = compile_pattern(key or entry.key)
+        pattern = compile_pattern(key)
     except BadValue:
-        return []
+        return ()
     parts = pattern.split()
     if parts is not None and len(parts) == 3:
-        matches = parts[2].matches
-        if parts[1].literal in NETWORK_MODULES:
-            return [each for each in NETWORK_KEYS if pattern.matches(f"{_network(pattern)}.{each.path}")]
-        return [each for each in NODE_KEYS if any(map(matches, _at_interfaces(each.path)))]
-    below = pattern.below_anything
-    if below is not None and below[1] is not None:  # `**.host.mobility.speed`
-        matches = below[1].matches
-        if found := [each for each in NODE_KEYS if any(map(matches, _at_interfaces(each.path)))]:
-            return found
-    matches = pattern.matches
-    of_nodes = [
-        each for each in NODE_KEYS if any(matches(f"N.n[0].{path}") for path in _at_interfaces(each.path))
-    ]
-    return of_nodes + [each for each in NETWORK_KEYS if matches(f"N.{each.path}")]
+        return _keys_below(parts[1].literal if parts[1].literal in NETWORK_MODULES else "", parts[2].text)
+    rest = pattern.below_anything
+    if rest and rest[1] and (found := _OF_NODES.matching(rest[1])):  # `**.host.mobility.speed`
+        return found
+    return _OF_NODES_IN_FULL.matching(pattern) + _OF_NETWORK_IN_FULL.matching(pattern)
 
 
-def _network(pattern: Pattern) -> str:
-    parts = pattern.split()
-    return (parts[0].literal if parts else None) or "N"
-
-
-def _at_interfaces(path: str) -> Iterator[str]:
-    return (path.replace(WLAN, f"wlan[{index}]") for index in range(4))
+@lru_cache(maxsize=4096)  # nodes have the same keys
+def _keys_below(module: str, path: str) -> Sequence[Key]:
+    """Return the keys that a pattern below a module of the network matches, or below a node if it is ""."""
+    try:
+        pattern = compile_pattern(path)
+    except BadValue:
+        return ()
+    return (_OF_MODULES[module] if module else _OF_NODES).matching(pattern)
 
 
 def _wrong_value(entry: Entry, key: str, text: str, keys: Sequence[Key]) -> str:

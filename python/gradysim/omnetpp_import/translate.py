@@ -2,12 +2,13 @@
 
 import os
 import re
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
-from gradysim.omnetpp_import.defaults import defaults_of, missing_classes, translated_lines
+from gradysim.omnetpp_import.defaults import defaults_of, indexed, missing_classes, translated_lines
 from gradysim.omnetpp_import.lines import Action, LineTranslator, Outcome
 from gradysim.omnetpp_import.ned import NedNetwork, read_networks
 from gradysim.scenario.ini import GENERAL, Entry, IniFile, read_ini
@@ -62,8 +63,7 @@ def translate(file: Path, folder: Path) -> Translation:
     }
     lines = LineTranslator(entries, size_keys, os.path.relpath(file.parent, folder))
     by_section = {section.name: [lines.outcome(entry) for entry in section.entries] for section in sections}
-    while _leave_to_user(by_section):  # a line that is left to the user may define variables of others
-        pass
+    _leave_to_user(by_section)
     outcomes = [outcome for of_section in by_section.values() for outcome in of_section]
     added = _added(ini, used, entries, by_section)
     for name, of_section in added.items():
@@ -79,17 +79,7 @@ def _added(
     by_section: Mapping[str, Sequence[Outcome]],
 ) -> dict[str, list[Outcome]]:
     """Return what the file lacks, by section. `used` are the networks, by the sections that choose them."""
-    added: dict[str, list[Outcome]] = {name: [] for name in ini.sections}
-    lines = translated_lines(outcome for outcomes in by_section.values() for outcome in outcomes)
-    is_one = len({id(network) for network in used.values()}) == 1
-    for name, network in list(used.items())[: 1 if is_one else None]:
-        in_force = translated_lines(by_section[GENERAL])
-        if not is_one or len(used) == 1:
-            in_force += translated_lines(by_section[name])
-        added[GENERAL if is_one else name] += [
-            *defaults_of(network, entries, lines, in_force),
-            *missing_classes(network, entries, lines),
-        ]
+    added = _defaults(ini, used, entries, by_section)
     limited = {
         name
         for name, outcomes in by_section.items()
@@ -101,18 +91,51 @@ def _added(
     return added
 
 
-def _leave_to_user(by_section: dict[str, list[Outcome]]) -> bool:
-    """Leave the first line to the user whose variable no other line defines. Return whether there is one."""
-    texts = [each.text for outcomes in by_section.values() for each in outcomes if each.is_in_force]
-    known = {name for text in texts for name in _DEFINED.findall(text)} | {*PREDEFINED}
+def _defaults(
+    ini: IniFile,
+    used: Mapping[str, NedNetwork],
+    entries: Sequence[Entry],
+    by_section: Mapping[str, Sequence[Outcome]],
+) -> dict[str, list[Outcome]]:
+    """Return what the networks say and the file does not, by section."""
+    added: dict[str, list[Outcome]] = {name: [] for name in ini.sections}
+    if not used:
+        return added
+    before = indexed(entries)
+    lines = indexed(translated_lines(chain.from_iterable(by_section.values())))
+    is_one = len({id(network) for network in used.values()}) == 1
+    for name, network in list(used.items())[: 1 if is_one else None]:
+        always = [GENERAL, name] if not is_one or len(used) == 1 else [GENERAL]
+        in_force = indexed(translated_lines(chain.from_iterable(map(by_section.__getitem__, always))))
+        added[GENERAL if is_one else name] += [
+            *defaults_of(network, before, lines, in_force),
+            *missing_classes(network, before, lines),
+        ]
+    return added
+
+
+def _leave_to_user(by_section: Mapping[str, list[Outcome]]) -> None:
+    """Leave lines to the user whose variables no other line defines, and so on with those they define."""
+    definitions = Counter(PREDEFINED)
+    uses: dict[str, list[tuple[list[Outcome], int]]] = {}
     for outcomes in by_section.values():
         for number, outcome in enumerate(outcomes):
-            names = _USED.findall(outcome.text) if outcome.is_in_force else []
-            for name in [name for pair in names for name in pair if name and name not in known]:
+            if outcome.is_in_force:
+                definitions.update(_DEFINED.findall(outcome.text))
+                for name in filter(None, chain.from_iterable(_USED.findall(outcome.text))):
+                    uses.setdefault(name, []).append((outcomes, number))
+    undefined = deque(name for name in uses if not definitions[name])
+    while undefined:
+        name = undefined.popleft()
+        for outcomes, number in uses.get(name, ()):
+            outcome = outcomes[number]
+            if outcome.is_in_force:
                 note = f"no line that is in force has the values of `{name}`"
                 outcomes[number] = replace(outcome, action=Action.TO_WRITE, note=note)
-                return True
-    return False
+                for defined in _DEFINED.findall(outcome.text):
+                    definitions[defined] -= 1
+                    if not definitions[defined]:
+                        undefined.append(defined)
 
 
 def _text(file: Path, ini: IniFile, by_section: dict[str, list[Outcome]]) -> str:

@@ -1,5 +1,6 @@
 """Files as a whole: sections, variables, time limits; and that the result loads."""
 
+import itertools
 from collections.abc import Callable
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import pytest
 from gradysim.omnetpp_import import Action, Translation, translate
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors import ConfigError
+from python.calls import count_calls
 from python.quiet_protocol import QUIET
 
 Translated = Callable[..., Translation]
@@ -121,3 +123,28 @@ def test_a_file_that_is_not_understood(tmp_path: Path) -> None:
     (tmp_path / "omnetpp.ini").write_text("[General\n")
     with pytest.raises(ConfigError, match="is not a heading"):
         translate(tmp_path / "omnetpp.ini", tmp_path)
+
+
+LINES = {
+    "mobility": "*.node{n}.mobility.speed = {n}mps",
+    "unknown": "*.node{n}.unknown{n} = {n}",
+    "anywhere": "**.node{n}.mobility.speed = {n}mps",
+    "geographic": "*.node{n}.mobility.homeLatitude = 0deg\n"
+    '*.node{n}.mobility.coordinateSystemModule = "coordinateSystem"',
+    "protocol": '*.node{n}.protocol.protocolFileName = "quiet"\n*.node{n}.protocol.protocolMobile = "Quiet"',
+    "undefined": "*.node{n}.mobility.speed = ${{s{n}}}mps",
+    "variables": "*.node{n}.mobility.speed = ${{s{n}=1, 2}}mps\n*.node{n}.mobility.initialX = ${{s{n}}}m",
+    "left to the user": "*.node{n}.mobility.speed = ${{s{n}=1, 2 ! s{m}}}mps",
+}
+
+
+@pytest.mark.parametrize("lines", LINES.values(), ids=LINES)
+def test_the_time_is_proportional_to_the_number_of_lines(translated: Translated, lines: str) -> None:
+    numbers = itertools.count(10_000)  # other names each time, since patterns are cached
+
+    def calls(count: int) -> int:
+        every = "\n".join(lines.format(n=n, m=n + 1) for n in itertools.islice(numbers, count))
+        return count_calls(lambda: translated(f"[General]\nnetwork = GradysNetwork\n{every}\n"))
+
+    _, first, second, third = calls(1), calls(50), calls(100), calls(150)
+    assert third - second < 1.04 * (second - first)
