@@ -20,38 +20,62 @@ if TYPE_CHECKING:
     from gradysim.scenario.scenario import Scenario
 
 
-def check_other_settings(study: "Study", options: RunOptions) -> None:
-    """Raise ConfigError if these runs would replace results of other settings or seeds without --replace."""
+def runs_to_do(study: "Study", options: RunOptions) -> Sequence[int]:
+    """Return the positions in `study` of the runs to execute: all, or with --resume those that lack a file.
+
+    Prints which runs are left out, outdated, or to be replaced. Raises ConfigError for results of other
+    settings or seeds without --replace, and for --resume without a directory.
+    """
+    if options.resume:
+        return _left_to_do(study, options)
+    if options.is_writer:
+        found = _with_result(study, options)
+        others = [place for place in found if _has_other_settings(study[place], options)]
+        _check_others(study, others, options)
+    return range(len(study))
+
+
+def _check_others(study: "Study", others: Sequence[int], options: RunOptions) -> None:
+    """Raise ConfigError for results of other settings, or print that they will be replaced.
+
+    `others` are the positions of their runs.
+    """
+    from gradysim.results.files import has_another_number
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_runs
 
-    others = [
-        study.numbers[place]
-        for place in (_with_result(study, options) if options.is_writer else ())
-        if is_of_other_settings(study[place], options)
-    ]
-    if others:
+    if not others:
+        return
+    numbers = [study.numbers[place] for place in others]
+    which = f"{len(numbers)} of {len(study)} runs ({text_of_runs(numbers)})"
+    if not options.replace:
+        hint = "; another `repeat` or list of values has changed the numbers of runs"
+        is_renumbered = has_another_number(study[others[0]], options.mode, options.directory)
         raise ConfigError(
-            f"--result-dir {options.directory}: it has results with other settings or seeds for"
-            f" {len(others)} of {len(study)} runs ({text_of_runs(others)})",
-            expected="another directory; --replace or --resume replaces them",
+            f"--result-dir {options.directory}: it has results with other settings or seeds for {which}",
+            expected="another directory; --replace replaces them",
+            hint=hint if is_renumbered else "",
         )
+    print(
+        f"{study.config}: --replace: {options.directory} has results with other settings or seeds for"
+        f" {which}; each is kept until its run is complete",
+        file=sys.stderr,
+    )
 
 
 def is_of_other_settings(scenario: "Scenario", options: RunOptions) -> bool:
     """Return whether a run would replace a result of other settings or another seed without --replace."""
+    return options.is_writer and not options.replace and _has_other_settings(scenario, options)
+
+
+def _has_other_settings(scenario: "Scenario", options: RunOptions) -> bool:
     from gradysim.results.files import has_other_settings
 
-    if not options.is_writer or options.resume or options.replace:
-        return False
     return has_other_settings(scenario, options.mode, options.directory)
 
 
-def left_to_do(study: "Study", options: RunOptions) -> list[int]:
-    """Return the positions in `study` of runs that lack a requested file.
-
-    Prints the other runs, and the outdated ones. Raises ConfigError without a directory.
-    """
+def _left_to_do(study: "Study", options: RunOptions) -> list[int]:
+    """Return the positions of runs that lack a requested file, for --resume."""
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_files, text_of_runs
 
@@ -61,7 +85,7 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
             "--resume: it goes by the JSON files of --result-dir, which is not given;"
             " expected --result-dir DIR, too"
         )
-    left, done = [], []
+    left, done, others = [], [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
     for place, (number, state, changed) in enumerate(states_of(study, options)):
         if state is State.DONE:
@@ -70,6 +94,9 @@ def left_to_do(study: "Study", options: RunOptions) -> list[int]:
         left.append(place)
         if changed:
             outdated.setdefault(changed, []).append(number)
+        if state is State.OF_OTHER_SETTINGS:
+            others.append(place)
+    _check_others(study, others, options)
     for files, runs in outdated.items():
         print(
             f"{study.config}: {text_of_files(files)} changed after {len(runs)} of {len(study)}"
@@ -108,7 +135,7 @@ def states_of(study: "Study", options: RunOptions) -> Iterator[tuple[int, State,
 
 def _state_of(scenario: "Scenario", options: RunOptions) -> tuple[State, tuple[str, ...]]:
     """Return the state of a run that has a result, and the files that have changed since."""
-    from gradysim.results.files import files_changed_since, has_other_settings
+    from gradysim.results.files import files_changed_since
 
     if is_done(scenario, options):
         return State.DONE, ()
@@ -117,7 +144,7 @@ def _state_of(scenario: "Scenario", options: RunOptions) -> tuple[State, tuple[s
         return State.OF_OTHER_FILES, changed
     if changed is not None:
         return State.WITHOUT_OUTPUT, ()
-    if has_other_settings(scenario, options.mode, options.directory):
+    if _has_other_settings(scenario, options):
         return State.OF_OTHER_SETTINGS, ()
     return State.INCOMPLETE, ()
 

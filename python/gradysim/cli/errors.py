@@ -60,16 +60,16 @@ def print_failure(failure: BaseException, file: TextIO) -> None:
     """
     if isinstance(failure, KeyboardInterrupt) and not hasattr(failure, "__notes__"):
         return
-    from gradysim.integrated.capture import CaptureError
     from gradysim.protocol.errors import (
         CommunicationException,
         MasslessMobilityException,
         NativeProtocolError,
         TimerException,
     )
+    from gradysim.replay.sink import OutputError
     from gradysim.sitl import SitlError
 
-    without_frames = (NativeProtocolError, CaptureError, SitlError)  # no code of the user led to these
+    without_frames = (NativeProtocolError, OutputError, SitlError)  # no code of the user led to these
     refused_commands = (CommunicationException, MasslessMobilityException, TimerException)
     frames = None if isinstance(failure, without_frames) else from_users_code(failure.__traceback__)
     told = traceback.TracebackException(type(failure), failure, frames)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TextIO
 
-from gradysim.cli.errors import FAILED, INTERRUPTED, OK, print_failure
+from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK, print_failure
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import limited
 from gradysim.cli.options import RunOptions
@@ -49,6 +49,10 @@ class Run(Protocol):
     def findings(self) -> "list[Finding]":
         """Return the findings of lint checks of the protocols so far."""
 
+    @property
+    def lacks_output(self) -> bool:
+        """Whether a capture or a replay lacks its end."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -60,12 +64,20 @@ class Outcome:
             second Ctrl-C ended it.
         interrupted: Whether Ctrl-C, SIGTERM or SIGHUP ended it.
         findings: Findings of lint checks of the protocols.
+        lacks_output: Whether a capture or a replay lacks its end.
     """
 
     result: "RunResult | None"
     failure: BaseException | None = None
     interrupted: bool = False
     findings: "Sequence[Finding]" = ()
+    lacks_output: bool = False
+
+    @staticmethod
+    def of(run: Run, failure: BaseException | None = None, *, interrupted: bool = False) -> "Outcome":
+        """Return how a run ended that was built."""
+        result = run.result()
+        return Outcome(result, failure, interrupted, run.findings(), run.lacks_output)
 
 
 def execute(
@@ -101,16 +113,15 @@ def execute(
                 with RunProgress(terminal, title, scenario.sim_time_limit_s) as bar:
                     run.execute(bar.update, interrupt.should_stop)
     except KeyboardInterrupt as pressed:
-        return Outcome(run.result(), pressed, interrupted=True, findings=run.findings())
+        return Outcome.of(run, pressed, interrupted=True)
     except BaseException as failure:  # also SystemExit and asyncio.CancelledError
-        return Outcome(run.result(), failure=failure, findings=run.findings())
-    result = run.result()
-    return Outcome(result, interrupted=result.interrupted, findings=run.findings())
+        return Outcome.of(run, failure)
+    return Outcome.of(run, interrupted=run.result().interrupted)
 
 
 def report(
     outcome: Outcome,
-    write: "Callable[[RunResult], Iterable[str]]",
+    write: "Callable[[RunResult, bool], Iterable[str]]",
     options: RunOptions,
     which: str | None = None,
 ) -> tuple[int, OSError | None]:
@@ -121,7 +132,8 @@ def report(
 
     Args:
         outcome: Outcome of the run.
-        write: Writes the files of a result, and yields a line about each.
+        write: Writes the files of a result, and yields a line about each. The second argument says whether a
+            capture or a replay lacks its end.
         options: Options of the command.
         which: Label of one run of several: it is shown in one line, without its files.
 
@@ -133,7 +145,7 @@ def report(
     if outcome.result is not None:
         lines: list[str] = []
         try:
-            lines.extend(write(outcome.result))
+            lines.extend(write(outcome.result, outcome.lacks_output))
         finally:  # also if the disk is full
             try:
                 if as_json or not quiet:
@@ -147,7 +159,16 @@ def report(
         print_failure(outcome.failure, sys.stderr)
     if outcome.interrupted:
         return INTERRUPTED, output_error
-    return OK if outcome.failure is None else FAILED, output_error
+    return _code_of(outcome.failure), output_error
+
+
+def _code_of(failure: BaseException | None) -> int:
+    """Return the exit code of a run that was not interrupted."""
+    from gradysim.replay.sink import OutputError
+
+    if failure is None:
+        return OK
+    return MISTAKE if isinstance(failure, OutputError) else FAILED
 
 
 def show(result: "RunResult", output: TextIO, options: RunOptions, which: str | None) -> None:

@@ -155,10 +155,12 @@ class RunOptions:
 
     resume: Flag = False
     """Skip runs whose file in --result-dir is complete and has the same settings, seed and files (protocols,
-    obstacles), with the output of --scalars, --vectors, --pcap, --replay and --fates-at."""
+    obstacles), with the output of --scalars, --vectors, --pcap, --replay and --fates-at. Results of other
+    settings or seeds are an error, as without this option."""
 
     replace: Flag = False
-    """Replace results of other settings or seeds in --result-dir. Without this option they are an error."""
+    """Replace results of other settings or seeds in --result-dir. Without this option they are an error. Each
+    is kept until the new one is complete."""
 
     until: str | None = None
     """Condition such as 'ci(QUANTITY) < 5%': run repetitions until half the width of the quantity's 95 %

@@ -1,5 +1,6 @@
 """Files of a run of `gradysim run`: their names, and how they are written."""
 
+import contextlib
 import errno
 import os
 from collections.abc import Iterator, Sequence
@@ -39,9 +40,10 @@ def replay_file(scenario: "Scenario", options: RunOptions) -> Path:
 def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
     """Return the sink for the replay of a run, and for its trace; None if neither is requested.
 
-    An earlier replay is replaced when the run has ended. Raises OSError if the replay cannot be written.
+    The replay gets its name when the run has ended. Raises ConfigError if it cannot be written.
     """
     from gradysim.results.durable import unfinished_file
+    from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.scenario import nodes_named
 
     sinks: list[ReplaySink] = []
@@ -50,9 +52,11 @@ def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None
 
         recorded = {node.id for node in nodes_named(scenario, options.replay)}
         is_all = len(recorded) == len(scenario.nodes)
-        page = replay_file(scenario, options)
-        under_way = unfinished_file(page) if page.is_file() else page
-        sinks.append(ReplayWriter(under_way, None if is_all else recorded))
+        page = unfinished_file(replay_file(scenario, options))
+        try:
+            sinks.append(ReplayWriter(page, None if is_all else recorded))
+        except OSError as error:
+            raise ConfigError(f"cannot write the replay '{page}': {error.strerror}") from error
     if options.trace:
         from gradysim.replay.trace import Trace
 
@@ -80,13 +84,10 @@ def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
 
 
 def captures_under_way(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
-    """Return {id of a node: the file that its radio writes}. Earlier captures are replaced after the run."""
+    """Return {id of a node: the file that its radio writes}. It gets its name when the run has ended."""
     from gradysim.results.durable import unfinished_file
 
-    files = captures(scenario, options)
-    if not any(file.is_file() for file in capture_files_of(scenario, options)):
-        return files
-    return {node_id: unfinished_file(file) for node_id, file in files.items()}
+    return {node_id: unfinished_file(file) for node_id, file in captures(scenario, options).items()}
 
 
 def capture_files_of(scenario: "Scenario", options: RunOptions) -> list[Path]:
@@ -117,11 +118,25 @@ def files_of_the_run_itself(scenario: "Scenario", options: RunOptions) -> list[P
 
 
 def files_under_way(scenario: "Scenario", options: RunOptions) -> list[Path]:
-    """Return all names of files that may be written during the run."""
+    """Return the names that these files have during the run."""
     from gradysim.results.durable import unfinished_file
 
-    files = files_of_the_run_itself(scenario, options)
-    return [*files, *map(unfinished_file, files)]
+    return [unfinished_file(file) for file in files_of_the_run_itself(scenario, options)]
+
+
+def remove_files_under_way(scenario: "Scenario", options: RunOptions) -> None:
+    """Remove what a run has written under these names, such as after a failure."""
+    for file in files_under_way(scenario, options):
+        with contextlib.suppress(OSError):
+            file.unlink()
+
+
+def check_outputs(scenario: "Scenario", options: RunOptions) -> None:
+    """Raise OSError if the place of an output of the run has something else than a regular file."""
+    from gradysim.results.durable import check_replaceable
+
+    for file in _all_files(scenario, options):
+        check_replaceable(file)
 
 
 def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
@@ -166,6 +181,7 @@ def check_sqlite(options: RunOptions) -> None:
 
 def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
     """Raise ConfigError if the name of a file is too long for the directory, before the first run."""
+    from gradysim.results.durable import LONGEST_PID, unfinished_file
     from gradysim.scenario.errors import ConfigError
 
     last = scenarios[-1]  # it has the longest number
@@ -173,7 +189,7 @@ def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> No
     there = next((folder for folder in folders if folder.is_dir()), Path())  # captures create their own
     for file in _all_files(last, options):
         try:
-            os.lstat(there / file.name)
+            os.lstat(there / unfinished_file(file, LONGEST_PID).name)
         except OSError as error:
             if error.errno == errno.ENAMETOOLONG:
                 raise ConfigError(
@@ -183,55 +199,65 @@ def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> No
 
 
 def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
-    """Yield the files that a run will write, with their names until they are complete."""
-    from gradysim.results.durable import LONGEST_PID, unfinished_file
+    """Yield the files that a run will write."""
     from gradysim.results.files import run_file
 
-    files = files_beside_result(scenario, options)
+    yield from files_beside_result(scenario, options)
     if options.result_dir is not None:
-        files.append(run_file(options.directory, scenario.config, scenario.run_number, options.mode))
-    for file in files:
-        yield unfinished_file(file, LONGEST_PID)
+        yield run_file(options.directory, scenario.config, scenario.run_number, options.mode)
 
 
-def write_files(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
+def write_files(
+    scenario: "Scenario", result: "RunResult", lacks_output: bool, options: RunOptions
+) -> Iterator[str]:
     """Write the requested files of a run, and yield a line about each file.
 
-    An interrupted run does not replace a complete result with the same settings. Files for OMNeT++ of an
-    earlier run that this one does not replace are removed. Raises OSError, with the name of the file.
+    An interrupted run does not replace a complete result. If a capture or a replay lacks its end, as
+    `lacks_output` says, none of them is kept. Files of an earlier run that would pass for files of this one
+    are removed. Raises OSError, with the name of the file, also if a capture or a replay is missing.
 
     The result comes first, in case the disk has no room for the others. When they are complete, it is written
     again and names them.
     """
-    from gradysim.results.durable import finish, unfinished_file
-    from gradysim.results.files import files_changed_since, run_file, write_run_file
+    from gradysim.results.durable import finish
+    from gradysim.results.files import (
+        has_complete_result,
+        outputs_of_other_settings,
+        run_file,
+        write_run_file,
+    )
 
     if not options.is_writer:
         return
-    under_way = [
-        file for file in files_of_the_run_itself(scenario, options) if unfinished_file(file).exists()
-    ]
-    directory = options.directory
-    if result.interrupted and files_changed_since(scenario, options.mode, directory) is not None:
-        for file in under_way:
-            unfinished_file(file).unlink()
-        earlier = run_file(directory, scenario.config, scenario.run_number, options.mode)
-        yield f"kept {earlier}, which is complete"
+    mode, directory = options.mode, options.directory
+    if result.interrupted and has_complete_result(scenario, mode, directory):
+        yield f"kept {run_file(directory, scenario.config, scenario.run_number, mode)}, which is complete"
         return
+    outdated = outputs_of_other_settings(scenario, mode, directory)
     if options.result_dir is not None:
         yield f"written to {write_run_file(result, options.result_dir)}"
+    captured = [] if lacks_output else capture_files_of(scenario, options)
+    replays = [replay_file(scenario, options)] if options.replay and not lacks_output else []
     if options.writes_files:
         yield from _remove_of_earlier_runs(scenario, options)
+    for file in outdated:
+        if file.suffix in _OF_THE_RUN_ITSELF and file.is_file():
+            file.unlink()
+            if file not in (*captured, *replays):
+                yield f"removed {file}, of an earlier run"
     if options.scalars or options.vectors:
         yield from _write_for_omnetpp(scenario, result, options)
-    for file in under_way:
+    for file in (*captured, *replays):
         finish(file)
-    for capture in capture_files_of(scenario, options):
-        yield f"captured in {capture}"
-    if options.replay:
-        yield f"replay in {replay_file(scenario, options)}"
-    if options.result_dir is not None and (others := files_beside_result(scenario, options)):
-        write_run_file(result, options.result_dir, others)
+    yield from (f"captured in {file}" for file in captured)
+    yield from (f"replay in {file}" for file in replays)
+    written = [*captured, *replays, *files_for_omnetpp(scenario, options)]
+    if options.result_dir is not None and written:
+        write_run_file(result, options.result_dir, written)
+
+
+_OF_THE_RUN_ITSELF = (".pcap", ".html")
+"""Suffixes of files that are written during the run."""
 
 
 def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterator[str]:

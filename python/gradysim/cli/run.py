@@ -10,7 +10,7 @@ from contextlib import ExitStack, nullcontext, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from gradysim.cli.earlier_results import check_other_settings, left_to_do
+from gradysim.cli.earlier_results import runs_to_do
 from gradysim.cli.errors import INCOMPLETE, INTERRUPTED, OK, report_crashes, say_mistake
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import FileArgument, RunOptions, option_value
@@ -127,12 +127,9 @@ def _prepare(file: Path, options: RunOptions) -> _Prepared | None:
         check_names(checked, options, len(study))
         check_file_names(study, options)
         tell(warnings_of_seeds(study))
-        left: Sequence[int] = range(len(study))
-        if options.resume:
-            left = left_to_do(study, options)
-            if not left:
-                return None
-        check_other_settings(study, options)
+        left = runs_to_do(study, options)
+        if not left:
+            return None
         if options.writes_files:
             check_may_be_written_to(options.directory)
         with waiting(f"checking {options.config}", shown=bar):
@@ -157,15 +154,19 @@ def _execute(
     from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.run_task import LineStart, RunTask, import_what_runs_use
     from gradysim.cli.runner import ForkExecutor
-    from gradysim.results.run_lock import remove_left_over_files
+    from gradysim.results.run_lock import remove_left_over_files, remove_lock_file
 
     study, left, _, build = prepared
     has_lines = len(study) > 1 and not options.details
     line = LineStart.of(study) if has_lines else None
     first = study.numbers[left[0]]
     report_crashes()
-    if options.is_writer:
-        remove_left_over_files(options.directory)
+    if options.is_writer and not remove_left_over_files(options.directory):
+        print(
+            f"{options.directory}: warning: its file system has no locks, so unfinished files of killed"
+            " commands stay there",
+            file=sys.stderr,
+        )
     with StopOnInterrupt(left_s) as interrupt:
         if workers is None:
             is_alone = _has_bar(options) and options.jobs == 1 and not options.trace
@@ -178,7 +179,7 @@ def _execute(
             groups = GroupExecutor(workers, Group.of(file, options, first, line, left_s), interrupt)
             code = _run_rounds(prepared, options, lambda place: groups.submit(study.numbers[place]))
         if options.is_writer:
-            remove_left_over_files(options.directory)
+            remove_lock_file(options.directory)
     if code == INTERRUPTED:
         is_over = left_s is not None and not interrupt.should_stop()  # the clock of a worker was ahead
         code = INCOMPLETE if is_over else interrupt.exit_code

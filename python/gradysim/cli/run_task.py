@@ -4,7 +4,7 @@ import gc
 import os
 import sys
 from collections.abc import Callable
-from contextlib import AbstractContextManager, chdir, nullcontext, redirect_stdout
+from contextlib import AbstractContextManager, ExitStack, chdir, nullcontext, redirect_stdout
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
@@ -16,7 +16,7 @@ from gradysim.cli.errors import INTERRUPTED, LOCKED, MISTAKE, OK, OVER_MEMORY, s
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import RunOptions
-from gradysim.cli.output import files_under_way, write_files
+from gradysim.cli.output import check_outputs, files_under_way, remove_files_under_way, write_files
 from gradysim.cli.runs import tell
 
 if TYPE_CHECKING:
@@ -87,9 +87,10 @@ class RunTask:
         name = f"{self.study.config} run {number}"
         memory_bytes = checked_limit(options.memory)
         try:
-            with self._lock(number):
+            with self._lock(number), ExitStack() as at_end:
                 with redirect_stdout(sys.stderr) if options.as_json else nullcontext(), chdir("."):
                     scenario = self.study[place]
+                    check_outputs(scenario, options)
                     if options.resume and is_done(scenario, options):
                         print(f"{name}: another process has done it; left out", file=sys.stderr)
                         return OK, None
@@ -99,6 +100,7 @@ class RunTask:
                             file=sys.stderr,
                         )
                         return MISTAKE, None
+                    at_end.callback(remove_files_under_way, scenario, options)
                     if hasattr(os, "fork"):
                         keep_from_forks(files_under_way(scenario, options))
                     outcome = execute(self.build, scenario, self.interrupt, self.terminal, memory_bytes)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
+from gradysim.replay.sink import OutputError
 from gradysim.results.durable import finished_name
 from gradysim.results.recorder import checked_ids
 from gradysim.scenario.errors import ConfigError
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 _EXPECTED = "a file for each id of a node, such as {0: 'node.pcap'}"
 
 
-class CaptureError(RuntimeError):
+class CaptureError(OutputError):
     """A capture file lacks its end. The message says which one and why."""
 
 
@@ -99,12 +100,3 @@ def capture_errors() -> Iterator[None]:
         raise
     except netsim.SimulationError as error:
         raise CaptureError(str(error)) from None
-
-
-def complete_captures_after(failure: BaseException, network: "Network") -> None:
-    """Complete the captures after an exception; a file without its end becomes a note on the exception."""
-    try:
-        with capture_errors():
-            network.close_captures()
-    except CaptureError as error:
-        failure.add_note(str(error))

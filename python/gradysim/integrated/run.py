@@ -16,12 +16,7 @@ from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.integrated.autopilot_nodes import AutopilotNodes
-from gradysim.integrated.capture import (
-    capture_errors,
-    checked_captures,
-    complete_captures_after,
-    start_captures,
-)
+from gradysim.integrated.capture import capture_errors, checked_captures, start_captures
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
@@ -52,8 +47,8 @@ if TYPE_CHECKING:
 class IntegratedRun(ScenarioRun):
     """A scenario on the compiled engine: built by the constructor, then run at once or step by step.
 
-    Errors of a native protocol raise NativeProtocolError. A capture file that could not be completed
-    raises CaptureError after all else is done, or adds a note to an earlier exception.
+    Errors of a native protocol raise NativeProtocolError. A capture that lacks its end raises CaptureError,
+    which is an OutputError.
     """
 
     mode = "integrated"
@@ -174,9 +169,10 @@ class IntegratedRun(ScenarioRun):
             except load_netsim().ProtocolError as failure:
                 raise self._native_failure(failure) from None
 
-    def _close_after_failure(self, failure: BaseException) -> None:
+    def _close_after_failure(self) -> None:
         self._handlers.finalize_after_failure()
-        complete_captures_after(failure, self._network)
+        with capture_errors():
+            self._network.close_captures()
 
     def _release(self) -> None:
         self._autopilots.close()

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import gradysim
 from gradysim.plots.numbers import Curve, Numbers
+from gradysim.results.durable import replacing
 from gradysim.results.files import hash_of_run_file
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import ConfigError
@@ -124,7 +125,6 @@ def write_files(
     Missing directories are created. Raises OSError, which names the file.
     """
     table, provenance = path.with_suffix(".csv"), path.with_suffix(".json")
-    path.parent.mkdir(parents=True, exist_ok=True)
     told = [
         {
             "file": str(run.file),
@@ -138,17 +138,15 @@ def write_files(
         for run in runs
     ]
     content = {"figure": path.name, "numbers": table.name, "gradysim": gradysim.__version__, **origin}
-    file = path
-    try:
-        figure.savefig(path, metadata={_DATE[path.suffix]: None} if path.suffix in _DATE else None)
-        file = table
-        with table.open("w", encoding="utf-8", newline="") as output:
-            csv.writer(output, lineterminator="\n").writerows(rows_of(numbers))
-        file = provenance
-        provenance.write_text(json.dumps(content | {"runs": told}, indent=2) + "\n", encoding="utf-8")
-    except OSError as error:
-        error.filename = str(file)  # missing for a full disk
-        raise
+    suffix = path.suffix.lower()
+    with replacing(path) as unfinished:
+        dates = {_DATE[suffix]: None} if suffix in _DATE else None
+        figure.savefig(unfinished, format=suffix[1:], metadata=dates)
+    with replacing(table) as unfinished, unfinished.open("w", encoding="utf-8", newline="") as output:
+        csv.writer(output, lineterminator="\n").writerows(rows_of(numbers))
+    with replacing(provenance) as unfinished:
+        text = json.dumps(content | {"runs": told}, indent=2) + "\n"
+        unfinished.write_text(text, encoding="utf-8")
     return path, table, provenance
 
 

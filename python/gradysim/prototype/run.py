@@ -95,7 +95,7 @@ class PrototypeRun(ScenarioRun):
     def _finish(self) -> None:
         self._simulator.finalize(complete=self._complete)
 
-    def _close_after_failure(self, failure: BaseException) -> None:
+    def _close_after_failure(self) -> None:
         """Do nothing: the simulator finalizes its handlers itself."""
 
     def _release(self) -> None:

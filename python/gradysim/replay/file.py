@@ -23,25 +23,28 @@ _CLOSE = "</script>\n"
 
 
 class ReplayFile:
-    """The HTML file of a run in progress."""
+    """The HTML file of a run in progress. Its methods raise OSError; for example, if the disk is full."""
 
-    def __init__(self, path: Path, run: Mapping[str, Any]) -> None:
-        """Create the file. `run` is the description of the run; see `describe`.
-
-        Raises OSError if the file cannot be created.
-        """
+    def __init__(self, path: Path) -> None:
+        """Create an empty file."""
         self.path = path
         self._file: IO[bytes] = path.open("wb")
+
+    def begin(self, run: Mapping[str, Any]) -> None:
+        """Write the page. `run` is the description of the run; see `describe`."""
         head, tail = page().split("<!-- run -->")
         self._write(head + _RUN + json_text({"format": FORMAT, **run}) + _CLOSE + tail)
 
     def add(self, chunk: bytes) -> None:
-        """Append an encoded chunk. Raises OSError; for example, if the disk is full."""
+        """Append an encoded chunk."""
         self._write(_CHUNK + base64.b64encode(chunk).decode() + _CLOSE)
 
-    def close(self, end: Mapping[str, Any]) -> None:
-        """Write how the run ended, and close the file."""
+    def end(self, end: Mapping[str, Any]) -> None:
+        """Write how the run ended."""
         self._write(_END + json_text(end) + _CLOSE)
+
+    def close(self) -> None:
+        """Close the file."""
         self._file.close()
 
     def _write(self, text: str) -> None:

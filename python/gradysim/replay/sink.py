@@ -1,13 +1,19 @@
 """Destination of the chunks of a running simulation."""
 
 from collections import deque
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
 from gradysim.replay.chunk import RawChunk, pack
 from gradysim.replay.file import ReplayFile
+
+
+class OutputError(RuntimeError):
+    """A file that a run writes lacks its end. The message says which one and why."""
 
 
 class ReplaySink(Protocol):
@@ -29,7 +35,10 @@ class ReplaySink(Protocol):
         """Take a chunk. This may block."""
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Take the end of the run, also after a failure: `time_s`, and whether it is `complete`."""
+        """Take the end of the run, also after a failure: `time_s`, and whether it is `complete`.
+
+        Raises OutputError if a file lacks its end.
+        """
 
 
 class Sinks:
@@ -57,49 +66,66 @@ class Sinks:
             sink.add(chunk)
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Forward it."""
-        for sink in self._sinks:
-            sink.close(end)
+        """Forward it to all sinks, also if one fails."""
+        with ExitStack() as stack:
+            for sink in self._sinks:
+                stack.callback(sink.close, end)
 
 
 _MOST_WAITING = 2
 
 
 class ReplayWriter:
-    """Writes a run to an HTML file. A thread encodes chunks, since zlib releases the interpreter lock."""
+    """Writes a run to an HTML file. A thread encodes chunks, since zlib releases the interpreter lock.
+
+    If the disk becomes full, the run continues without its replay, and `close` raises the error.
+    """
 
     def __init__(self, path: str | Path, recorded: Iterable[int] | None = None) -> None:
         """Create an empty file. Raises OSError if it cannot be created."""
         self.recorded = None if recorded is None else frozenset(recorded)
-        self._path = Path(path)
-        self._path.touch()
-        self._file: ReplayFile | None = None
+        self._file = ReplayFile(Path(path))
+        self._failure: OSError | None = None
         self._packer = ThreadPoolExecutor(1, "gradysim replay")
         self._packed: deque[Future[bytes]] = deque()
 
     def begin(self, run: Mapping[str, Any]) -> None:
         """Write the page and the description of the run."""
-        self._file = ReplayFile(self._path, run)
+        self._write(lambda: self._file.begin(run))
 
     def wants_chunk(self) -> bool:
         """Return False, since longer chunks are compressed better."""
         return False
 
     def add(self, chunk: RawChunk) -> None:
-        """Write a chunk, and wait for earlier ones. Raises OSError if the disk is full."""
-        self._packed.append(self._packer.submit(pack, chunk))
-        self._write(_MOST_WAITING)
+        """Write a chunk, and wait for earlier ones."""
+        if self._failure is None:
+            self._packed.append(self._packer.submit(pack, chunk))
+            self._write_packed(_MOST_WAITING)
 
     def close(self, end: Mapping[str, Any]) -> None:
-        """Write how the run ended, and close the file."""
-        assert self._file is not None
+        """Write how the run ended, and close the file. Raises OutputError if a part is missing."""
+        self._write_packed(0)
+        self._packer.shutdown()
+        self._write(lambda: self._file.end(end))
+        failure = self._failure
         try:
-            self._write(0)
-            self._file.close(end)
-        finally:
-            self._packer.shutdown()
+            self._file.close()  # writes again what could not be written
+        except OSError as error:
+            failure = failure or error
+        if failure is not None:
+            reason = failure.strerror or str(failure)
+            raise OutputError(f"cannot write the replay '{self._file.path}': {reason}; it lacks its end")
 
-    def _write(self, may_wait: int) -> None:
-        assert self._file is not None
+    def _write_packed(self, may_wait: int) -> None:
         while self._packed and (len(self._packed) > may_wait or self._packed[0].done()):
-            self._file.add(self._packed.popleft().result())
+            chunk = self._packed.popleft().result()
+            self._write(partial(self._file.add, chunk))
+
+    def _write(self, write: Callable[[], None]) -> None:
+        """Call `write`, unless an earlier part could not be written."""
+        if self._failure is None:
+            try:
+                write()
+            except OSError as error:
+                self._failure = error

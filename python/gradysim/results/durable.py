@@ -10,6 +10,9 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+from gradysim.scenario.errors import BadValue
+from gradysim.scenario.regular_files import check_regular
+
 LONGEST_PID = 2**22
 """On Linux."""
 
@@ -29,12 +32,22 @@ def finished_name(name: str) -> str | None:
     return found["name"] if found else None
 
 
+def check_replaceable(path: Path) -> None:
+    """Raise OSError if something is at `path` that is not a regular file, such as a pipe or a directory."""
+    try:
+        check_regular(path, "it")
+    except BadValue as error:
+        code = errno.EISDIR if path.is_dir() else errno.EEXIST
+        raise OSError(code, f"{error.problem}; expected {error.expected}", str(path)) from None
+
+
 @contextlib.contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """Yield the name for a new file, which then replaces `path` as a whole or not at all.
 
     Missing directories are created. Raises OSError, with the name of the file, if it cannot be written.
     """
+    check_replaceable(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = unfinished_file(path)
     try:
@@ -52,7 +65,7 @@ def replacing(path: Path) -> Iterator[Path]:
 def finish(path: Path) -> None:
     """Rename the complete `unfinished_file(path)`. Both survive a power failure.
 
-    Raises OSError.
+    Raises OSError, with the name of a file, also if the unfinished file is missing.
     """
     unfinished = unfinished_file(path)
     _sync(unfinished, os.O_RDWR)
@@ -69,5 +82,8 @@ def _sync(path: Path, flags: int) -> None:
     descriptor = os.open(path, flags)
     try:
         os.fsync(descriptor)
+    except OSError as error:
+        error.filename = str(path)  # a descriptor has no name
+        raise
     finally:
         os.close(descriptor)

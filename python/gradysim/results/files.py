@@ -63,6 +63,28 @@ def has_other_settings(scenario: Scenario, mode: Mode, directory: Path) -> bool:
     return bool(result) and not _has_settings_of(scenario, result)
 
 
+def has_another_number(scenario: Scenario, mode: Mode, directory: Path) -> bool:
+    """Return whether `directory` has a result of its run number with other values or another repetition."""
+    result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
+    expected = (scenario.repetition, plain_iterations(scenario.iterations))
+    return bool(result) and (result.get("repetition"), result.get("iterations")) != expected
+
+
+def has_complete_result(scenario: Scenario, mode: Mode, directory: Path) -> bool:
+    """Return whether `directory` has a complete result of the run, with any settings."""
+    result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
+    return result.get("interrupted") is False
+
+
+def outputs_of_other_settings(scenario: Scenario, mode: Mode, directory: Path) -> list[Path]:
+    """Return the other files of a result of the run with other settings or another seed, if there is one."""
+    result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
+    hashes = result.get("output_hashes")
+    if not result or _has_settings_of(scenario, result) or not isinstance(hashes, dict):
+        return []
+    return [directory / Path(name).name for name in hashes]
+
+
 def _has_settings_of(scenario: Scenario, result: Mapping[str, Any]) -> bool:
     expected = {
         "seed": scenario.seed,
@@ -84,10 +106,10 @@ def has_written(scenario: Scenario, mode: Mode, directory: Path, files: Iterable
 
 
 def _read(file: Path) -> dict[str, Any]:
-    """Return the JSON object in a result file; an empty dict if it is missing or damaged."""
+    """Return the JSON object in a result file; an empty dict if it is missing or damaged. Raises OSError."""
     try:
         return read_run_file(file)
-    except (OSError, ValueError):
+    except (FileNotFoundError, NotADirectoryError, ValueError):
         return {}
 
 

@@ -78,7 +78,7 @@ def packs_of(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
     try:
-        return sorted(file for file in (path / PACKS).iterdir() if file.suffix == ".sca")
+        return sorted(file for file in (path / PACKS).iterdir() if file.suffix == ".sca" and file.is_file())
     except (FileNotFoundError, NotADirectoryError):
         return []
 

@@ -11,7 +11,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.results.durable import replacing, unfinished_file
+from gradysim.results.durable import check_replaceable, replacing, unfinished_file
 from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp import TABLES as OMNETPP_TABLES
 from gradysim.results.omnetpp import RunIdentity, create_tables, insert_run, storable
@@ -62,6 +62,7 @@ def pack(directory: Path, file: Path, *, remove: bool = False) -> int:
         ConfigError: A result file is damaged.
         OSError: A file cannot be read or written, or differs from what the pack has. Nothing is removed.
     """
+    check_replaceable(file)
     remove_left_over_files(directory)
     with all_runs_locked(directory):
         known = packed_files(file) if file.exists() else {}

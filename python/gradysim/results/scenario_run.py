@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Self
 
 from gradysim.encapsulator.run_context import GlobalRandom, gc_paused
 from gradysim.replay.chunk import RawChunk
-from gradysim.replay.sink import ReplaySink
+from gradysim.replay.sink import OutputError, ReplaySink
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
 from gradysim.results.run_log import RecordEvent, RunLog
@@ -70,6 +70,9 @@ class ScenarioRun(ABC):
     An exception in a protocol is raised with a note of node, time and callback. It ends the run without
     `finish` of the protocols. So does an exception in a handler, such as that of an assertion that failed.
     Handlers are finalized in any case.
+
+    A capture or replay that lacks its end raises OutputError after all else is done, or adds a note to an
+    earlier exception.
     """
 
     mode: ClassVar[Mode]
@@ -93,6 +96,7 @@ class ScenarioRun(ABC):
         self._recorders = recorders_of(vectors_of, len(scenario.nodes), scenario.vector_record_interval_s)
         self._replay = replay
         self._log_level = log_level
+        self._lacks_output = False
 
     @property
     def time_s(self) -> float:
@@ -103,6 +107,11 @@ class ScenarioRun(ABC):
     def has_ended(self) -> bool:
         """Whether the run reached its time limit, was finished, or failed."""
         return self._ended
+
+    @property
+    def lacks_output(self) -> bool:
+        """Whether a capture or a replay lacks its end."""
+        return self._lacks_output
 
     def node(self, name: str) -> RunNode:
         """Return the node of that name, such as `groundStation` or `uavs[2]`. KeyError if there is none."""
@@ -221,9 +230,14 @@ class ScenarioRun(ABC):
 
     def _fail(self, failure: BaseException) -> None:
         self._ended, self._complete = True, False
+        self._lacks_output = isinstance(failure, OutputError)
         try:
-            self._close_after_failure(failure)
-            self._end_replay()
+            for close in (self._close_after_failure, self._end_replay):
+                try:
+                    close()
+                except OutputError as error:
+                    self._lacks_output = True
+                    failure.add_note(str(error))
         finally:
             self._release()
 
@@ -347,8 +361,8 @@ class ScenarioRun(ABC):
         """Finish the protocols and finalize the handlers."""
 
     @abstractmethod
-    def _close_after_failure(self, failure: BaseException) -> None:
-        """Finalize what remains after `failure`, without an exception that hides it."""
+    def _close_after_failure(self) -> None:
+        """Finalize what remains after an exception. Raises OutputError, and nothing else."""
 
     @abstractmethod
     def _release(self) -> None:

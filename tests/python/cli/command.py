@@ -4,10 +4,11 @@ import contextlib
 import io
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from importlib import util
 from pathlib import Path
 
@@ -141,6 +142,17 @@ def run_without(module: str, folder: Path, *arguments: str) -> subprocess.Comple
     """Run the command in a directory where a module is not installed."""
     code = f"import sys; sys.modules[{module!r}] = None; from gradysim.cli.app import main; sys.exit(main())"
     return run_command(folder, sys.executable, "-c", code, *arguments)
+
+
+@contextlib.contextmanager
+def disk_of(size: int) -> Iterator[None]:
+    """Limit the size in bytes of files of this process and of its children."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
 
 
 def objects(output: str) -> list[dict]:

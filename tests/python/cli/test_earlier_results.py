@@ -1,5 +1,8 @@
 """`gradysim run` into a directory with results: it replaces only outdated or incomplete ones."""
 
+import contextlib
+import errno
+import fcntl
 import json
 import os
 import signal
@@ -9,18 +12,19 @@ import time
 
 import pytest
 
-from gradysim.cli.earlier_results import check_other_settings
+from gradysim.cli.earlier_results import runs_to_do
 from gradysim.cli.options import RunOptions
 from gradysim.cli.runs import check
+from gradysim.results.durable import finished_name
 from gradysim.results.run_lock import LOCK_FILE
-from python.cli.command import both_modes, environment, objects
+from python.cli.command import both_modes, compiled, environment, objects
 
 RUN = ("run", "test.ini", "--mode", "prototype", "--quiet")
 OTHER_LIMIT = ("--set", "sim-time-limit=2s")
 
 
 def content(directory):
-    return {path.name: path.read_bytes() for path in directory.iterdir()}
+    return {path.name: path.read_bytes() for path in directory.iterdir() if not finished_name(path.name)}
 
 
 @pytest.fixture
@@ -33,12 +37,13 @@ def out(gradysim, folder):
 @pytest.mark.parametrize(
     "other", [OTHER_LIMIT, ("--seed", "7"), ("--set", "repeat=4", "--set", "seed-set=5")]
 )
-def test_results_of_other_settings_are_refused_before_anything_runs(gradysim, out, other):
+@pytest.mark.parametrize("resume", [(), ("--resume",)])
+def test_results_of_other_settings_are_refused_before_anything_runs(gradysim, out, other, resume):
     before = content(out)
-    done = gradysim(*RUN, "--result-dir", "out", "--json", *other)
+    done = gradysim(*RUN, "--result-dir", "out", "--json", *other, *resume)
     assert (done.returncode, done.stdout) == (2, "")
     assert done.stderr.splitlines()[-1].startswith("--result-dir out: ")
-    for part in (" 3 of ", "(0..2)", "--resume", "--replace"):
+    for part in (" 3 of ", "(0..2)", "--replace"):
         assert part in done.stderr
     assert content(out) == before
 
@@ -56,10 +61,22 @@ def test_runs_that_write_nothing_are_not_refused(gradysim, out):
     assert gradysim(*RUN, *OTHER_LIMIT).returncode == 0
 
 
-@pytest.mark.parametrize("option", ["--replace", "--resume"])
-def test_they_are_replaced_on_request(gradysim, out, option):
-    assert gradysim(*RUN, "--result-dir", "out", *OTHER_LIMIT, option).returncode == 0
+def test_they_are_replaced_on_request_with_a_line_about_it(gradysim, out):
+    done = gradysim(*RUN, "--result-dir", "out", *OTHER_LIMIT, "--replace")
+    assert done.returncode == 0
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("General: --replace: out has ")
+    assert "3 of 3 runs (0..2)" in line
     assert {json.loads(text)["sim_time_s"] for text in content(out).values()} == {2}
+
+
+@compiled
+def test_their_captures_and_replays_do_not_stay_beside_the_new_results(gradysim, folder):
+    command = ("run", "test.ini", "-r", "0", "--result-dir", "out")
+    gradysim(*command, "--pcap", "all", "--replay", "all")
+    done = gradysim(*command, *OTHER_LIMIT, "--replace")
+    assert list(content(folder / "out")) == ["General-#0.integrated.json"]
+    assert "removed out/General-#0.integrated.html, of an earlier run\n" in done.stdout
 
 
 def test_a_second_run_with_the_same_settings_replaces_the_first(gradysim, out):
@@ -73,7 +90,7 @@ def test_ten_thousand_runs_are_looked_for_without_reading_them(folder, monkeypat
     study = check(folder / "test.ini", "General", None, ["repeat = 10000"])
     made = []
     monkeypatch.setattr(type(study), "__getitem__", lambda _, place: made.append(place))
-    check_other_settings(study, RunOptions(result_dir=folder / "out"))
+    runs_to_do(study, RunOptions(result_dir=folder / "out"))
     assert made == []
 
 
@@ -114,23 +131,20 @@ ALL_FILES = ("--result-dir", "out", "--scalars", "--vectors", "all", "--replay",
         ("os.kill(os.getpid(), 9)", 1),
     ],
 )
-def test_an_incomplete_result_never_replaces_a_complete_one(gradysim, folder, mode, stop, code):
+@pytest.mark.parametrize("new", [(), ("--replace", "--set", "sim-time-limit=200s")])
+def test_an_incomplete_result_never_replaces_a_complete_one(gradysim, folder, mode, stop, code, new):
     (folder / "stops.py").write_text(PROTOCOLS.replace("STOP", stop))
-    name = (
-        "--set",
-        '*.uavs[*].protocol.class="stops.py:StopsInTheMiddle"',
-        "--set",
-        "sim-time-limit=300s",
-    )
+    name = ("--set", '*.uavs[*].protocol.class="stops.py:StopsInTheMiddle"')
     files = (*ALL_FILES, *(["--pcap", "uavs[0]"] if mode == "integrated" else []))
     command = ("run", "test.ini", "--mode", mode, "--quiet", "-r", "0", *name, *files)
-    assert gradysim(*command).returncode == 0
+    long = ("--set", "sim-time-limit=300s")
+    assert gradysim(*command, *long).returncode == 0
     before = content(folder / "out")
     (folder / "stop").touch()
-    done = gradysim(*command)
+    done = gradysim(*command, *(new or long))
     assert done.returncode == code
     assert content(folder / "out") == before
-    assert "1 of 1 runs" in gradysim(*command, "--resume").stderr
+    assert "1 of 1 runs is in out" in gradysim(*command, *long, "--resume").stderr
 
 
 def test_an_incomplete_result_replaces_an_incomplete_one(gradysim, folder):
@@ -146,13 +160,13 @@ def test_an_incomplete_result_replaces_an_incomplete_one(gradysim, folder):
     assert after["General-#0.prototype.json"] != before["General-#0.prototype.json"]
 
 
-@pytest.fixture
-def other_command(folder):
-    """Return a command that computes run 0, and waits in it until the pipe is opened for writing."""
+@contextlib.contextmanager
+def begun(folder, *arguments):
+    """Start a command whose protocols wait until the pipe is opened for writing."""
     (folder / "stops.py").write_text(PROTOCOLS)
     os.mkfifo(folder / "pipe")
     with subprocess.Popen(
-        [sys.executable, "-m", "gradysim", *RUN, "-r", "0", *WAITING],
+        [sys.executable, "-m", "gradysim", *RUN, *arguments],
         cwd=folder,
         env=environment(),
         stderr=subprocess.PIPE,
@@ -163,6 +177,13 @@ def other_command(folder):
             time.sleep(0.01)
         yield process
         process.kill()
+
+
+@pytest.fixture
+def other_command(folder):
+    """Return a command that computes run 0, and waits in it until the pipe is opened for writing."""
+    with begun(folder, "-r", "0", *WAITING) as process:
+        yield process
 
 
 WAITING = ("--set", '*.uavs[*].protocol.class="stops.py:Waits"', "--result-dir", "out")
@@ -211,3 +232,30 @@ def test_a_lock_ends_with_a_killed_process_and_so_do_its_files(gradysim, folder,
     while gradysim(*RUN, "-r", "0", *quick).returncode == 3:  # the kernel is about to kill its worker
         time.sleep(0.01)
     assert sorted(content(folder / "out")) == ["General-#0.prototype.json", "General-#1.prototype.json"]
+
+
+def test_a_replay_that_is_removed_while_it_grows_is_an_error(gradysim, folder):
+    replay = ("-r", "0", "--replay", "all")
+    gradysim(*RUN, *replay, "--result-dir", "out")
+    with begun(folder, *replay, "--replace", *WAITING) as process:
+        (page,) = (folder / "out").glob("*.html.*")
+        page.unlink()
+        let_it_go_on(folder)
+        _, err = process.communicate(timeout=20)
+    assert process.returncode == 2
+    assert err.splitlines()[-1] == f"{page.relative_to(folder)}: No such file or directory"
+    (result,) = content(folder / "out").values()
+    assert json.loads(result)["output_hashes"] == {}
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_without_locks_there_is_one_warning_and_all_runs_are_done(gradysim, folder, monkeypatch, jobs):
+    def lockf(*_):
+        raise OSError(errno.ENOLCK, "no locks")
+
+    monkeypatch.setattr(fcntl, "lockf", lockf)
+    done = gradysim(*RUN, "--result-dir", "out", "--jobs", jobs)
+    assert done.returncode == 0
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("out: warning: ")
+    assert len([name for name in content(folder / "out") if name.endswith(".json")]) == 3

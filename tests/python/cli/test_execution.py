@@ -17,6 +17,8 @@ SCENARIO = SimpleNamespace(config="General", run_number=0, sim_time_limit_s=10.0
 class FakeRun:
     """A run with a given end."""
 
+    lacks_output = False
+
     def __init__(self, ending=None, interrupted=False):
         self.ending, self.interrupted = ending, interrupted
         self.arguments = None

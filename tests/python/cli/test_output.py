@@ -1,7 +1,9 @@
 """Failing outputs: a full disk, a reader that has exited, a closed stream."""
 
 import errno
+import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -9,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.cli import run
-from python.cli.command import compiled, environment, run_command
+from gradysim.viewer.page import page
+from python.cli.command import compiled, disk_of, environment, run_command
 from python.thorough import some
 
 FULL_DISK = Path("/dev/full")
@@ -114,6 +117,74 @@ def test_a_result_that_finds_no_room_is_told_in_one_line(folder):
     shell = ["sh", "-c", 'ulimit -f 0; exec "$@"', "sh"]
     done = run_command(folder, *shell, sys.executable, "-m", "gradysim", *arguments)
     assert (done.returncode, done.stderr) == (2, "out/General-#0.prototype.json: File too large\n")
+
+
+ALL_OUTPUTS = ("--result-dir", "out", "--scalars", "--vectors", "all", "--replay", "all", "--pcap", "uavs[0]")
+
+
+@compiled
+def test_each_output_is_synced_before_it_has_its_name(gradysim, folder, monkeypatch):
+    fsync = os.fsync
+    log = folder / "synced"
+
+    def noted(descriptor):
+        fsync(descriptor)
+        name = Path(os.readlink(f"/proc/self/fd/{descriptor}")).name
+        with log.open("a") as file:  # of the process of the run
+            print(name, *sorted(os.listdir(folder / "out")), file=file)
+
+    monkeypatch.setattr(os, "fsync", noted)
+    assert gradysim("run", "test.ini", "-r", "0", "--quiet", *ALL_OUTPUTS).returncode == 0
+    lines = [line.split() for line in log.read_text().splitlines()]
+    for file in (folder / "out").iterdir():
+        (at, *_) = [at for at, (name, *_) in enumerate(lines) if name.startswith(f"{file.name}.")]
+        _, *there = lines[at]
+        assert file.name not in there
+        assert lines[at + 1][0] == "out"
+        assert file.name in lines[at + 1]
+
+
+@compiled
+@pytest.mark.parametrize("name", ["0.integrated.json", "0.integrated.html", "0-uavs[0].pcap"])
+@pytest.mark.parametrize("resume", [[], ["--resume"]])
+def test_a_pipe_in_the_place_of_an_output_is_refused(gradysim, folder, name, resume):
+    (folder / "out").mkdir()
+    os.mkfifo(folder / f"out/General-#{name}")
+    done = gradysim("run", "test.ini", "-r", "0", "--quiet", *ALL_OUTPUTS, *resume)
+    assert done.returncode == 2
+    assert done.stderr == f"out/General-#{name}: it is a pipe; expected a regular file\n"
+    assert len(list((folder / "out").iterdir())) == 1
+
+
+@pytest.mark.parametrize(
+    "command",
+    [["pack", "out", "-o", "to.svg"], ["plot", "out", "--x", "run", "--y", "events", "-o", "to.svg"]],
+)
+def test_a_pipe_in_the_place_of_a_file_of_another_command_is_refused(gradysim, folder, command):
+    gradysim("run", "test.ini", "--mode", "prototype", *QUIET, "--quiet", "--result-dir", "out")
+    os.mkfifo(folder / "to.svg")
+    done = gradysim(*command)
+    assert (done.returncode, done.stderr) == (2, "to.svg: it is a pipe; expected a regular file\n")
+
+
+@compiled
+@pytest.mark.parametrize(
+    ("option", "room", "name"),
+    [
+        ("--replay", 100_000, "General-#0.integrated.html"),
+        ("--replay", len(page()) + 5_000, "General-#0.integrated.html"),
+        ("--pcap", 10_000, "General-#0-uavs[0].pcap"),
+    ],
+)
+def test_a_capture_or_replay_without_room_is_told_in_one_line(gradysim, folder, option, room, name):
+    long = ("--set", "sim-time-limit=300s", "--quiet", "--result-dir", "out")
+    with disk_of(room):
+        done = gradysim("run", "test.ini", "-r", "0", *long, option, "uavs[0]")
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert re.search(rf"'out/{re.escape(name)}\.\d+': File too large", line)
+    (result,) = (folder / "out").iterdir()
+    assert json.loads(result.read_text())["interrupted"] is True
 
 
 @pytest.mark.parametrize("closed", ["1", "2"])

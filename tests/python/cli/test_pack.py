@@ -67,7 +67,7 @@ def test_packed_runs_of_other_settings_are_an_error(gradysim, packed):
 def test_a_packed_run_is_replaced(gradysim, packed):
     gradysim(*RUN, "-r", "1", "--replace", "--set", "sim-time-limit=2s")
     assert gradysim("pack", "out").stdout == "packed 1 new run into out/packs/runs.sca\n"
-    done = gradysim(*RUN, "--resume", "--json")
+    done = gradysim(*RUN, "--resume", "--replace", "--json")
     assert [run["run"] for run in objects(done.stdout)] == [1]
 
 

@@ -32,12 +32,13 @@ def test_all_runs_may_be_there(gradysim):
     assert done.stderr.endswith("General: 1 of 1 runs is in out (1) and left out\n")
 
 
-def test_a_result_of_other_settings_is_replaced(gradysim, folder):
-    arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out", "-r", "0")
-    gradysim(*arguments)
-    gradysim(*arguments, "--resume", "--set", "sim-time-limit=2s")
-    (result,) = results(folder).values()
-    assert result["sim_time_s"] == 2
+def test_with_replace_runs_of_other_settings_start_again(gradysim, folder):
+    arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out")
+    gradysim(*arguments, "-r", "0", "--set", "sim-time-limit=2s")
+    gradysim(*arguments, "-r", "1")
+    done = gradysim(*arguments, "--resume", "--replace", "--json")
+    assert [run["run"] for run in objects(done.stdout)] == [0, 2]
+    assert {result["sim_time_s"] for result in results(folder).values()} == {10.5}
 
 
 def test_runs_of_an_edited_protocol_begin_anew(gradysim, folder):
@@ -56,15 +57,15 @@ def test_runs_of_an_edited_protocol_begin_anew(gradysim, folder):
     assert again.stderr.endswith("General: 3 of 3 runs are in out (0..2) and left out\n")
 
 
-def test_runs_of_an_edited_included_file_begin_anew(gradysim, folder):
+def test_runs_of_an_edited_included_file_are_refused(gradysim, folder):
     (folder / "limit.ini").write_text("sim-time-limit = 3s\n")
     text = (folder / "test.ini").read_text().replace("sim-time-limit = 10.5s", "include limit.ini", 1)
     (folder / "test.ini").write_text(text)
     arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out")
     gradysim(*arguments)
     (folder / "limit.ini").write_text("sim-time-limit = 2s\n")
-    gradysim(*arguments, "--resume")
-    assert {result["sim_time_s"] for result in results(folder).values()} == {2}
+    assert gradysim(*arguments, "--resume").returncode == 2
+    assert {result["sim_time_s"] for result in results(folder).values()} == {3}
 
 
 @pytest.mark.parametrize("options", [[], ["--scalars"]])
@@ -101,3 +102,31 @@ def test_the_lock_of_a_killed_command_goes_if_all_runs_are_done(gradysim, folder
     lock.touch()
     gradysim(*command, "--resume")
     assert not lock.exists()
+
+
+@pytest.fixture
+def grown(gradysim):
+    """`grown(order)`: the result of --resume after `repeat` was raised from 20 to 21, for four values."""
+
+    def grown(order):
+        settings = ("*.uavs.count=${count=1, 2, 3, 4}", f"iteration-nesting-order={order}")
+        words = [word for setting in settings for word in ("--set", setting)]
+        arguments = ("run", "test.ini", "--mode", "prototype", "--quiet", "--result-dir", "out", *words)
+        gradysim(*arguments, "--set", "repeat=20")
+        return gradysim(*arguments, "--set", "repeat=21", "--resume", "--json")
+
+    return grown
+
+
+def test_another_repeat_changes_the_numbers_of_runs(grown):
+    done = grown("*, repetition")
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "60 of 84 runs (20..79)" in done.stderr
+    assert done.stderr.endswith("; another `repeat` or list of values has changed the numbers of runs\n")
+
+
+def test_all_runs_stay_if_repetitions_are_the_outermost(grown):
+    done = grown("repetition, *")
+    assert "80 of 84 runs are in out (0..79) and left out\n" in done.stderr
+    assert [run["run"] for run in objects(done.stdout)] == [80, 81, 82, 83]
+    assert {run["repetition"] for run in objects(done.stdout)} == {20}

@@ -26,6 +26,19 @@ def test_the_missing_runs_are_resumed(
     assert len([line for line in printed.splitlines() if line.startswith("Study run")]) == 8
 
 
+@pytest.mark.verify
+def test_repetitions_are_added(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
+) -> None:
+    shell("gradysim new swarm", tmp_path)
+    with (tmp_path / "swarm/swarm.ini").open("a") as file:
+        file.write(code_blocks(GUIDE, "ini")[0])
+    command = "gradysim run swarm/swarm.ini -c Growing --result-dir results --quiet"
+    shell(command, tmp_path)
+    printed = shell(f"{command} --set repeat=6 --resume 2>&1", tmp_path)
+    assert "20 of 24 runs are in results (0..19) and left out" in printed
+
+
 def test_the_unfinished_runs_are_named_as_shown(code_blocks: CodeBlocks) -> None:
     shown = code_blocks(GUIDE, "text")[0].splitlines()[-1]
     assert shown == text_of_unfinished("Study", range(12), {12: "was interrupted"}, range(13, 20))

@@ -13,6 +13,7 @@ from gradysim.plots.figure import COLORS
 from gradysim.results import Runs
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.runs import hash_of
+from python.cli.command import disk_of
 
 HEARD = "uavs[*] heard"
 BEGINNINGS = {".pdf": b"%PDF", ".png": b"\x89PNG", ".svg": b"<?xml"}
@@ -120,13 +121,10 @@ def test_a_missing_matplotlib_is_named_with_its_extra(monkeypatch: pytest.Monkey
 
 
 def test_a_full_disk_names_the_file(tmp_path: Path, study: Runs) -> None:
-    full = Path("/dev/full")
-    if not full.exists():
-        pytest.skip("there is no full disk")
-    (tmp_path / "f.csv").symlink_to(full)
-    with pytest.raises(OSError, match="No space") as raised:
+    with disk_of(1000), pytest.raises(OSError, match="File too large") as raised:
         save_figure(tmp_path / "f.svg", study, x="jitter", y=HEARD)
-    assert raised.value.filename == str(tmp_path / "f.csv")
+    assert raised.value.filename == str(tmp_path / "f.svg")
+    assert not list(tmp_path.glob("f.*"))
 
 
 def luminance(color: str) -> float:

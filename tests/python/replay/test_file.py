@@ -9,10 +9,12 @@ def path(tmp_path):
 
 
 def test_what_is_written_is_read(path):
-    file = ReplayFile(path, {"config": "</script><b>"})
+    file = ReplayFile(path)
+    file.begin({"config": "</script><b>"})
     file.add(b"one")
     file.add(b"two")
-    file.close({"complete": True})
+    file.end({"complete": True})
+    file.close()
     run, chunks, end = read_parts(path)
     assert run == {"format": 1, "config": "</script><b>"}
     assert list(chunks) == [b"one", b"two"]
@@ -20,11 +22,13 @@ def test_what_is_written_is_read(path):
 
 
 def test_a_file_that_was_cut_off_has_its_first_chunks(path):
-    file = ReplayFile(path, {})
+    file = ReplayFile(path)
+    file.begin({})
     file.add(b"one")
     size = path.stat().st_size
     file.add(b"two")
-    file.close({})
+    file.end({})
+    file.close()
     path.write_bytes(path.read_bytes()[: size + 40])
     _, chunks, end = read_parts(path)
     assert list(chunks) == [b"one"]

@@ -1,5 +1,10 @@
+import contextlib
+import errno
+import fcntl
+import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -7,7 +12,16 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.results.run_lock import LOCK_FILE, RunLockedError, remove_left_over_files, run_locked
+from gradysim.results import run_lock
+from gradysim.results.run_lock import (
+    LEASE_S,
+    LOCK_FILE,
+    RunLockedError,
+    all_runs_locked,
+    remove_left_over_files,
+    run_locked,
+)
+from python.processes import wait_until
 
 HOLDS = """
 import sys, time
@@ -19,11 +33,11 @@ with run_locked(Path(sys.argv[1]), sys.argv[2]):
 """
 
 
-@pytest.fixture
-def holder(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+@contextlib.contextmanager
+def holding(directory: Path, code: str) -> Iterator[subprocess.Popen[str]]:
     """Start another process that holds the lock of `A`."""
     with subprocess.Popen(
-        [sys.executable, "-c", HOLDS, str(tmp_path), "A"],
+        [sys.executable, "-c", code, str(directory), "A"],
         stdout=subprocess.PIPE,
         text=True,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
@@ -32,6 +46,12 @@ def holder(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
         assert process.stdout.readline() == "held\n"
         yield process
         process.kill()
+
+
+@pytest.fixture
+def holder(tmp_path: Path) -> Iterator[subprocess.Popen[str]]:
+    with holding(tmp_path, HOLDS) as process:
+        yield process
 
 
 def test_one_process_at_a_time_has_a_run(tmp_path, holder):
@@ -77,6 +97,103 @@ def test_nothing_is_removed_while_a_run_goes_on(tmp_path, holder):
 def test_a_missing_directory_has_nothing_left_over(tmp_path):
     remove_left_over_files(tmp_path / "missing")
     assert not (tmp_path / "missing").exists()
+
+
+NO_LOCKS = """
+import errno, fcntl
+def lockf(*arguments):
+    raise OSError(errno.ENOLCK, "no locks")
+fcntl.lockf = lockf
+"""
+
+
+@pytest.fixture
+def no_locks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make this process find a file system without locks."""
+
+    def lockf(*_: object) -> None:
+        raise OSError(errno.ENOLCK, "no locks")
+
+    monkeypatch.setattr(fcntl, "lockf", lockf)
+
+
+@pytest.fixture
+def leaser(tmp_path: Path, no_locks: None) -> Iterator[subprocess.Popen[str]]:
+    """Start another process that computes `A` in a directory without locks."""
+    with holding(tmp_path, NO_LOCKS + HOLDS) as process:
+        yield process
+
+
+def lease_of(directory: Path) -> Path:
+    (lease,) = directory.glob(".gradysim.lease.*")
+    return lease
+
+
+def let_it_expire(lease: Path) -> None:
+    before_s = lease.stat().st_mtime - LEASE_S - 1
+    os.utime(lease, (before_s, before_s))
+
+
+def test_without_locks_one_process_at_a_time_has_a_run(tmp_path, leaser):
+    with pytest.raises(RunLockedError) as raised, run_locked(tmp_path, "A"):
+        pass
+    assert (raised.value.pid, raised.value.host) == (leaser.pid, socket.gethostname())
+    with run_locked(tmp_path, "B"):
+        pass
+    assert lease_of(tmp_path).exists()  # that of B is gone
+
+
+def test_without_locks_a_killed_process_has_its_run_until_its_lease_expires(tmp_path, leaser):
+    leaser.kill()
+    leaser.wait()
+    with pytest.raises(RunLockedError), run_locked(tmp_path, "A"):
+        pass
+    let_it_expire(lease_of(tmp_path))
+    with run_locked(tmp_path, "A"):
+        assert json.loads(lease_of(tmp_path).read_text())["pid"] == os.getpid()
+    assert not list(tmp_path.glob(".gradysim.lease.*"))
+
+
+def test_a_lease_is_touched_while_the_run_goes_on(tmp_path, no_locks, monkeypatch):
+    monkeypatch.setattr(run_lock, "HEARTBEAT_S", 0.001)
+    with run_locked(tmp_path, "A"):
+        lease = lease_of(tmp_path)
+        let_it_expire(lease)
+        now_s = (tmp_path / LOCK_FILE).stat().st_mtime
+        wait_until(lambda: lease.stat().st_mtime > now_s - LEASE_S / 2)
+
+
+def test_a_process_whose_lease_has_expired_leaves_that_of_the_next_one(tmp_path, no_locks):
+    with contextlib.ExitStack() as first:
+        first.enter_context(run_locked(tmp_path, "A"))
+        let_it_expire(lease_of(tmp_path))
+        with run_locked(tmp_path, "A"):
+            first.close()
+            assert lease_of(tmp_path).exists()
+
+
+def test_without_locks_nothing_is_removed(tmp_path, no_locks):
+    assert len(left_over(tmp_path)) == 4 + len([LOCK_FILE])
+    assert not remove_left_over_files(tmp_path)
+
+
+def test_without_locks_all_runs_are_locked_if_none_is_computed(tmp_path, leaser):
+    with pytest.raises(RunLockedError) as raised, all_runs_locked(tmp_path):
+        pass
+    assert raised.value.pid == leaser.pid
+    let_it_expire(lease_of(tmp_path))
+    with all_runs_locked(tmp_path), pytest.raises(RunLockedError), run_locked(tmp_path, "B"):
+        pass
+
+
+def test_another_error_of_a_lock_names_the_file(tmp_path, monkeypatch):
+    def lockf(*_: object) -> None:
+        raise OSError(errno.EIO, "damaged")
+
+    monkeypatch.setattr(fcntl, "lockf", lockf)
+    with pytest.raises(OSError, match="damaged") as raised, run_locked(tmp_path, "A"):
+        pass
+    assert raised.value.filename == str(tmp_path / LOCK_FILE)
 
 
 RACES = """
