@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from gradysim.results.compare import Change
-    from gradysim.results.paired import Estimate
+    from gradysim.results.confidence_interval import Estimate
     from gradysim.results.run_table import Runs
 
 _ROUNDING = 1e-12
@@ -26,7 +26,7 @@ _ROUNDING = 1e-12
 DEFAULTS = CompareOptions()
 
 _BEFORE = ("quantity", "pairs")
-_AFTER = ("first", "first_half_width", "second", "second_half_width", "difference", "difference_half_width")
+_AFTER = tuple(f"{name}{end}" for name in ("first", "second", "difference") for end in ("", "_low", "_high"))
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ def changes_table(changes: "Sequence[Change]", names: tuple[str, str], what: str
     for change in changes:
         cells = [str(change.values.get(name, "")) for name in varying]
         cells += [change.quantity, _number(change.first, ".4g"), _number(change.second, ".4g")]
-        cells += [_difference(change), _half_width(change.difference)]
+        cells += [_difference(change), _interval(change.difference)]
         table.add_row(*map(Text, [*cells, str(change.pairs)]))
     return table
 
@@ -188,10 +188,13 @@ def _difference(change: "Change") -> str:
     return "0" if is_rounded else _number(change.difference, "+.4g")
 
 
-def _half_width(estimate: "Estimate | None") -> str:
-    if estimate is None or estimate.half_width is None:
+def _interval(estimate: "Estimate | None") -> str:
+    from gradysim.cli.console import interval_text
+
+    if estimate is None or estimate.low is None:
         return ""
-    return f"{estimate.half_width:.3g} {'*' if estimate.excludes_zero else ' '}"
+    text = interval_text(estimate.mean, estimate.low, estimate.high, ".3g")
+    return f"{text} {'*' if estimate.excludes_zero else ' '}"
 
 
 def write_csv(changes: "Sequence[Change]", output: TextIO) -> None:
@@ -208,7 +211,7 @@ def _rows(changes: "Sequence[Change]", variables: Sequence[str]) -> Iterator[lis
     for change in changes:
         numbers: list[object] = []
         for estimate in (change.first, change.second, change.difference):
-            numbers += [None, None] if estimate is None else [estimate.mean, estimate.half_width]
+            numbers += [None] * 3 if estimate is None else [estimate.mean, estimate.low, estimate.high]
         values = [change.values.get(name, "") for name in variables]
         cells = ["" if number is None else number for number in numbers]
         yield [*values, change.quantity, change.pairs, *cells]

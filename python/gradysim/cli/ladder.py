@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from gradysim.ladder.ladder import Rung
-    from gradysim.results.paired import Estimate
+    from gradysim.results.confidence_interval import Estimate
 
 
 DEFAULTS = CampaignOptions()
@@ -123,6 +123,8 @@ def ladder_table(rungs: "list[Rung]", title: str) -> "Table":
 
 
 def text_of(estimate: "Estimate", sign: str = "") -> str:
-    """Return `12.3 ± 0.4`, with four significant digits."""
-    mean = f"{estimate.mean:{sign}.4g}"
-    return mean if estimate.half_width is None else f"{mean} ± {estimate.half_width:.2g}"
+    """Return `12.3 ± 0.4`, with four significant digits, or `0.9 [0.56, 1]`."""
+    from gradysim.cli.console import interval_text
+
+    interval = interval_text(estimate.mean, estimate.low, estimate.high, ".2g", "± ")
+    return " ".join(filter(None, [f"{estimate.mean:{sign}.4g}", interval]))

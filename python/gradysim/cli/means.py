@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gradysim.results.means import Mean
 
 _BEFORE = ("config", "mode")
-_AFTER = ("quantity", "runs", "mean", "half_width", "left_out")
+_AFTER = ("quantity", "runs", "mean", "low", "high", "left_out")
 
 
 def print_means(
@@ -63,6 +63,8 @@ def means_table(means: "Sequence[Mean]") -> "Table":
     from rich.table import Table
     from rich.text import Text
 
+    from gradysim.cli.console import interval_text
+
     config, mode = {mean.config for mean in means}, {mean.mode for mean in means}
     title = [*(config if len(config) == 1 else ()), *(f"{m} mode" for m in mode if len(mode) == 1)]
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title_justify="left")
@@ -83,7 +85,7 @@ def means_table(means: "Sequence[Mean]") -> "Table":
         cells += [str(mean.iterations.get(name, "")) for name in variables]
         cells += [mean.quantity, str(mean.runs)]
         cells += ["" if mean.mean is None else f"{mean.mean:.6g}"]
-        cells += ["" if mean.half_width is None else f"{mean.half_width:.3g}"]
+        cells += [interval_text(mean.mean, mean.low, mean.high, ".3g")]
         table.add_row(*map(Text, [*cells, *([mean.left_out] if some_left_out else [])]))
     return table
 
@@ -104,7 +106,7 @@ def write_csv(means: "Sequence[Mean]", output: TextIO) -> None:
 def _rows(means: "Sequence[Mean]", variables: Sequence[str]) -> Iterator[list[object]]:
     for mean in means:
         values = [mean.iterations.get(name, "") for name in variables]
-        numbers = ["" if number is None else number for number in (mean.mean, mean.half_width)]
+        numbers = ["" if number is None else number for number in (mean.mean, mean.low, mean.high)]
         yield [mean.config, mean.mode, *values, mean.quantity, mean.runs, *numbers, mean.left_out]
 
 

@@ -2,13 +2,15 @@
 
 import re
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from gradysim.cli.options import RunOptions
 
 if TYPE_CHECKING:
+    from gradysim.results.confidence_interval import Estimate
     from gradysim.results.run_summary import RunSummary
     from gradysim.scenario.load import Study
 
@@ -20,7 +22,7 @@ _CONDITION = re.compile(r"\s*ci\((?P<quantity>.+)\)\s*<\s*(?P<percent>\d+(\.\d+)
 
 @dataclass(frozen=True)
 class Until:
-    """Condition that half the width of the interval is below `percent` of the mean.
+    """Condition that half the width of the 95 % interval is below `percent` of the mean.
 
     Attributes:
         text: As the user wrote it.
@@ -76,6 +78,7 @@ def rounds_of(
         batch = [(number, places[number]) for places in wide for number in _next(done, places)]
         yield [place for _, place in sorted(batch) if place in wanted]
         done += BATCH
+        numbers.read(place for places in wide for place in places[:done])
         unmet = [places for places in unmet if numbers.percent_of(places[:done]) >= until.percent]
     _tell(study, until, options, numbers, unmet)
 
@@ -92,32 +95,29 @@ class _Numbers:
         self._until = until
         self._options = options
         self._numbers: dict[int, float | None] = {}
+        self._binary = True  # as long as it is 0 or 1 in all runs
 
     @property
     def run_count(self) -> int:
         """Number of results that were read."""
         return len(self._numbers)
 
+    def read(self, places: Iterable[int]) -> None:
+        """Read the results of these runs, unless they are known. Raises ConfigError and OSError."""
+        for place in places:
+            if place not in self._numbers:
+                summary = self._summary(place)
+                self._binary = self._binary and summary.is_binary(self._until.quantity)
+                self._numbers[place] = summary.number(self._until.quantity)
+
     def percent_of(self, places: Sequence[int]) -> float:
-        """Return half the width of the interval in percent of the mean; infinite for a single number."""
-        from math import inf
+        """Return the width of the interval of runs that were read, as `percent_of_mean` does."""
+        from gradysim.results.confidence_interval import estimate
 
-        from gradysim.results.confidence_interval import mean_with_half_width
+        numbers = [number for place in places if (number := self._numbers[place]) is not None]
+        return percent_of_mean(estimate(numbers, binary=self._binary)) if numbers else inf
 
-        numbers = [number for place in places if (number := self._number(place)) is not None]
-        mean, half_width = mean_with_half_width(numbers) if numbers else (0.0, None)
-        if half_width is None:
-            return inf
-        if mean == 0:
-            return inf if half_width else 0.0
-        return 100 * half_width / abs(mean)
-
-    def _number(self, place: int) -> float | None:
-        if place not in self._numbers:
-            self._numbers[place] = self._read(place).numbers.get(self._until.quantity)
-        return self._numbers[place]
-
-    def _read(self, place: int) -> "RunSummary":
+    def _summary(self, place: int) -> "RunSummary":
         from gradysim.results.files import read_run_file, run_file
         from gradysim.results.run_summary import RunSummary
         from gradysim.scenario.errors import ConfigError, nearest
@@ -132,6 +132,18 @@ class _Numbers:
                 suggestion=nearest(self._until.quantity, summary.numbers),
             )
         return summary
+
+
+def percent_of_mean(found: "Estimate") -> float:
+    """Return half the width of an interval in percent of the mean; infinite for a single number.
+
+    For a mean of 0, the upper end is in percent of 1: the probability of an event that no run had.
+    """
+    if found.low is None or found.high is None or found.half_width is None:
+        return inf
+    if found.mean == 0:
+        return 100 * found.high if found.low == 0 else inf
+    return 100 * found.half_width / abs(found.mean)
 
 
 def _tell(

@@ -47,6 +47,7 @@ class Observation:
         messages: {outcome: messages}.
         failure: Why the run failed: the exception of a protocol, or the end of its process.
         quantities: Names of all quantities of the run.
+        binary: Whether the metric is 0 or 1, see `RunSummary.is_binary`.
     """
 
     value: float | None
@@ -55,6 +56,7 @@ class Observation:
     messages: Mapping[str, int] = field(default_factory=dict)
     failure: str = ""
     quantities: tuple[str, ...] = ()
+    binary: bool = False
 
 
 class Campaign:
@@ -182,11 +184,12 @@ class Campaign:
         except Exception as failure:
             return Observation(None, failure=f"{type(failure).__name__}: {failure}")
         result = run.result()
-        numbers = RunSummary.of(result.to_json_object()).numbers
+        summary = RunSummary.of(result.to_json_object())
         losses, receptions = _losses(result.fates)
         messages = _messages(result.fates)
-        value = numbers.get(metric, 0.0)
-        return Observation(value, losses, receptions, messages, quantities=tuple(numbers))
+        value = summary.numbers.get(metric, 0.0)
+        quantities, binary = summary.conditions.quantities, summary.is_binary(metric)
+        return Observation(value, losses, receptions, messages, quantities=quantities, binary=binary)
 
     def _study(self, settings: Sequence[str], levels: Collection[str]) -> Study:
         key = (*settings, *levels)

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from gradysim.ladder.desync import Desync
 from gradysim.ladder.ladder import Rung
-from gradysim.plots.numbers import Curve, Numbers, caption_of, label_of
+from gradysim.plots.numbers import Curve, Numbers, caption_of, columns_of, label_of
+from gradysim.results.confidence_interval import Estimate
 
 
 def ladder_numbers(rungs: Sequence[Rung], metric: str, run_count: int) -> Numbers:
@@ -15,8 +16,7 @@ def ladder_numbers(rungs: Sequence[Rung], metric: str, run_count: int) -> Number
         {
             "level": names,
             "runs": [run_count] * len(rungs),
-            "mean": [rung.metric.mean for rung in rungs],
-            "half_width": [rung.metric.half_width for rung in rungs],
+            **columns_of([rung.metric for rung in rungs]),
         },
     )
     return Numbers([curve], "level", label_of(metric), caption_of("mean", [run_count]), names)
@@ -30,8 +30,7 @@ def jitter_numbers(found: Desync) -> Numbers:
         {
             "jitter (s)": [trial.jitter_s for trial in trials],
             "runs": [found.runs_per_trial] * len(trials),
-            "mean": [trial.delivery for trial in trials],
-            "half_width": [None] * len(trials),
+            **columns_of([Estimate(trial.delivery) for trial in trials]),
         },
     )
     caption = f"{without.delivery:.3f} without jitter; n = {found.runs_per_trial} runs"

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, FailedRunError, Observation
 from gradysim.ladder.levels import Level
-from gradysim.results.paired import Estimate, compare_pairs, estimate
+from gradysim.results.confidence_interval import Estimate, estimate
+from gradysim.results.paired import compare_pairs
 
 _SMALLEST_RATIO = 0.0005
 """Losses below it are not named: they would have 0.0 %."""
@@ -54,15 +55,17 @@ def climb(campaign: Campaign, metric: str, levels: range, executor: Executor | N
         for number in levels
     }
     before: Sequence[float] = ()
+    binary = True  # as long as it is 0 or 1 in all runs
     for number, observations in submitted.items():
         seen = list(observations)
         values = [_value(each, campaign.levels[number], place) for place, each in enumerate(seen)]
+        binary = binary and all(each.binary for each in seen)
         loss, ratio = _most_frequent_loss(seen)
         yield Rung(
             number,
             campaign.levels[number],
-            estimate(values),
-            compare_pairs(before, values).difference if before else None,
+            estimate(values, binary=binary),
+            compare_pairs(before, values, binary=binary).difference if before else None,
             loss,
             ratio,
         )

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from gradysim.plots.figure import HEIGHT_IN, set_texts, styles_of
-from gradysim.plots.numbers import Curve, Numbers, caption_of
+from gradysim.plots.numbers import Curve, Numbers, bars, caption_of
 from gradysim.results.compare import Change, varying_values
 from gradysim.scenario.errors import ConfigError
 
@@ -47,16 +47,18 @@ def _columns(changes: Sequence[Change]) -> Mapping[str, Sequence[Any]]:
         assert change.second is not None
         assert change.difference is not None
         percent = 100 / abs(change.first.mean)
-        half_width = change.difference.half_width
+        low, high = change.difference.low, change.difference.high
         row = {
             "quantity": change.quantity,
             "pairs": change.pairs,
             "first": change.first.mean,
             "second": change.second.mean,
             "difference": change.difference.mean,
-            "half_width": half_width,
+            "low": low,
+            "high": high,
             "percent": change.difference.mean * percent,
-            "percent_half_width": None if half_width is None else half_width * percent,
+            "percent_low": None if low is None else low * percent,
+            "percent_high": None if high is None else high * percent,
         }
         for name, value in row.items():
             columns.setdefault(name, []).append(value)
@@ -76,9 +78,9 @@ def draw_changes(axes: "Axes", numbers: Numbers) -> "Axes":
     for index, (curve, style) in enumerate(zip(curves, styles_of(curves), strict=True)):
         shift = (index + 0.5) / len(curves) - 0.5
         places = [numbers.categories.index(quantity) + 0.6 * shift for quantity in curve.x]
-        half_widths = [half or 0.0 for half in curve.columns["percent_half_width"]]
+        means, low, high = (curve.columns[name] for name in ("percent", "percent_low", "percent_high"))
         style["linestyle"] = "none"
-        axes.errorbar(curve.columns["percent"], places, xerr=half_widths, label=curve.label, **style)
+        axes.errorbar(means, places, xerr=bars(means, low, high), label=curve.label, **style)
     set_texts(axes, replace(numbers, categories=()))
     axes.set_yticks(range(len(numbers.categories)), list(numbers.categories))
     axes.set_ylim(len(numbers.categories) - 0.5, -0.5)

@@ -8,13 +8,16 @@ from gradysim.plots.figure import set_texts, styles_of
 from gradysim.plots.numbers import (
     Curve,
     Numbers,
+    bars,
     caption_of,
     check_quantity,
+    columns_of,
     label_of,
     mean_columns,
     series_of,
     x_axis,
 )
+from gradysim.results.paired import compare_pairs
 from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs, variables_of
 from gradysim.scenario.errors import ConfigError, nearest
@@ -33,6 +36,7 @@ def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None)
     """Return the mean of `y` for each value of `x`. Raises ConfigError."""
     axis = x_axis(runs, x)
     check_quantity(runs, y)
+    binary = all(run.is_binary(y) for run in runs)
     curves = []
     for values, alike in series_of(runs, by, x):
         found = {
@@ -41,7 +45,8 @@ def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None)
             if (numbers := _numbers(_with(alike, x, value), y))
         }
         if found:
-            curves.append(Curve(values, {axis.label: list(found), **mean_columns(list(found.values()))}))
+            columns = mean_columns(list(found.values()), binary=binary)
+            curves.append(Curve(values, {axis.label: list(found), **columns}))
     counts = [count for curve in curves for count in curve.columns["runs"]]
     caption = caption_of("mean", counts)
     return Numbers(curves, axis.label, label_of(y), caption, axis.categories)
@@ -71,6 +76,7 @@ def diff_numbers(
             expected=f"one of {', '.join(names)}",
             suggestion=nearest(base, names),
         )
+    binary = all(run.is_binary(y) for run in runs)
     of_base = {_rest(values, compared): alike for values, alike in series if str(values[compared]) == base}
     curves = []
     for values, alike in series:
@@ -78,16 +84,22 @@ def diff_numbers(
         if str(values[compared]) == base:
             continue
         found = {
-            place: differences
+            place: pairs
             for value, place in axis.places.items()
-            if (differences := _differences(_with(alike, x, value), _with(others, x, value), y))
+            if (pairs := _pairs(_with(others, x, value), _with(alike, x, value), y))
         }
         if found:
-            columns = mean_columns(list(found.values()))
-            columns["pairs"] = columns.pop("runs")
-            higher = [sum(each > 0 for each in differences) for differences in found.values()]
+            compared_pairs = [
+                compare_pairs(*zip(*pairs, strict=True), binary=binary) for pairs in found.values()
+            ]
+            columns = {
+                axis.label: list(found),
+                **columns_of([each.difference for each in compared_pairs]),
+                "pairs": [each.pairs for each in compared_pairs],
+                "higher": [sum(after > before for before, after in pairs) for pairs in found.values()],
+            }
             label = {**values, compared: f"{values[compared]} - {base}"}
-            curves.append(Curve(label, {axis.label: list(found), **columns, "higher": higher}))
+            curves.append(Curve(label, columns))
     if not curves:
         raise ConfigError(
             f"no two runs that differ in `{compared}` have the same seed",
@@ -102,14 +114,14 @@ def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
     """Draw means with error bars; a line connects them if the x axis is a number."""
     curves = numbers.curves
     for index, (curve, style) in enumerate(zip(curves, styles_of(curves), strict=True)):
-        half_widths = [half or 0.0 for half in curve.columns["half_width"]]
+        means, low, high = (curve.columns[name] for name in ("mean", "low", "high"))
         if numbers.categories:
             shift = _WIDTH_OF_CATEGORY * ((index + 0.5) / len(curves) - 0.5)
             places: Sequence[float] = [numbers.categories.index(name) + shift for name in curve.x]
             style["linestyle"] = "none"
         else:
             places = curve.x
-        axes.errorbar(places, curve.columns["mean"], yerr=half_widths, label=curve.label, **style)
+        axes.errorbar(places, means, yerr=bars(means, low, high), label=curve.label, **style)
     set_texts(axes, numbers)
     if numbers.categories:
         axes.set_xlim(-0.5, len(numbers.categories) - 0.5)
@@ -155,10 +167,11 @@ def _rest(values: dict[str, Any], compared: str) -> tuple[Any, ...]:
     return tuple(value for name, value in values.items() if name != compared)
 
 
-def _differences(runs: Sequence[RunSummary], others: Sequence[RunSummary], y: str) -> list[float]:
-    by_seed = {other.seed: number for other in others if (number := other.number(y)) is not None}
+def _pairs(base: Sequence[RunSummary], runs: Sequence[RunSummary], y: str) -> list[tuple[float, float]]:
+    """Return the numbers of runs with the same seed, that of the base first."""
+    by_seed = {run.seed: number for run in base if (number := run.number(y)) is not None}
     return [
-        number - by_seed[run.seed]
+        (by_seed[run.seed], number)
         for run in runs
         if (number := run.number(y)) is not None and run.seed in by_seed
     ]

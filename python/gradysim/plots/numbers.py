@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.confidence_interval import Estimate, estimate
 from gradysim.results.quantity import quantities
 from gradysim.results.result import RunResult
 from gradysim.results.run_summary import RunSummary
@@ -181,19 +181,29 @@ def number_of_runs(counts: Iterable[int], what: str = "run") -> str:
     return f"n = {number} {what}{'s' if most != 1 else ''}"
 
 
-def mean_columns(groups: Sequence[Sequence[float]]) -> dict[str, list[Any]]:
+def mean_columns(groups: Sequence[Sequence[float]], *, binary: bool = False) -> dict[str, list[Any]]:
     """Return the columns of the means of groups of numbers, with 95 % confidence intervals."""
-    found = [mean_with_half_width(group) for group in groups]
-    return {
-        "runs": [len(group) for group in groups],
-        "mean": [mean for mean, _ in found],
-        "half_width": [half for _, half in found],
-    }
+    found = [estimate(group, binary=binary) for group in groups]
+    return {"runs": [len(group) for group in groups], **columns_of(found)}
+
+
+def columns_of(found: Sequence[Estimate]) -> dict[str, list[Any]]:
+    """Return the columns of means and of the ends of their intervals."""
+    return {name: [getattr(each, name) for each in found] for name in ("mean", "low", "high")}
 
 
 def band(curve: Curve) -> tuple[list[float], list[float]]:
     """Return lower and upper ends of the intervals; NaN if there is none, as for a single run."""
-    pairs = list(zip(curve.columns["mean"], curve.columns["half_width"], strict=True))
-    low = [math.nan if half is None else mean - half for mean, half in pairs]
-    high = [math.nan if half is None else mean + half for mean, half in pairs]
+    low, high = (
+        [math.nan if end is None else end for end in curve.columns[name]] for name in ("low", "high")
+    )
     return low, high
+
+
+def bars(
+    means: Sequence[float], low: Sequence[float | None], high: Sequence[float | None]
+) -> tuple[list[float], list[float]]:
+    """Return the lengths of error bars below and above the means, which are 0 without an interval."""
+    below = [0.0 if end is None else mean - end for mean, end in zip(means, low, strict=True)]
+    above = [0.0 if end is None else end - mean for mean, end in zip(means, high, strict=True)]
+    return below, above

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.plots.figure import set_texts, styles_of
 from gradysim.plots.numbers import Curve, Numbers, band, caption_of, mean_columns, series_of
+from gradysim.results.confidence_interval import are_binary
 from gradysim.results.run_table import Runs
 from gradysim.results.tracked_variables import group_of
 from gradysim.scenario.errors import ConfigError, nearest
@@ -44,22 +45,25 @@ def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numb
         )
     end_s = max(run.numbers["sim_time_s"] for run in runs)
     per_unit, unit = next((per_unit, unit) for least, per_unit, unit in _UNITS if end_s >= least)
-    curves, counts = [], []
+    known, counts = [], []
     for values, alike in series_of(runs, by):
         vectors = [found[id(run)] for run in alike if id(run) in found]
         until_s = min(run.numbers["sim_time_s"] for run in alike)
         grid_s = [until_s * step / _STEPS for step in range(_STEPS + 1)]
         means = [[_mean_at(each, time_s) for each in vectors] for time_s in grid_s]
-        known = [
-            (time_s, numbers)
+        points = {
+            time_s / per_unit: numbers
             for time_s, row in zip(grid_s, means, strict=True)
             if (numbers := [number for number in row if number is not None])
-        ]
-        if known:
-            times = [time_s / per_unit for time_s, _ in known]
-            columns = mean_columns([numbers for _, numbers in known])
-            curves.append(Curve(values, {f"time ({unit})": times, **columns}))
+        }
+        if points:
+            known.append((values, points))
             counts.append(len(vectors))
+    binary = all(are_binary(numbers) for _, points in known for numbers in points.values())
+    curves = [
+        Curve(values, {f"time ({unit})": list(points), **mean_columns(list(points.values()), binary=binary)})
+        for values, points in known
+    ]
     caption = caption_of("mean", counts)
     return Numbers(curves, f"time ({unit})", y, caption)
 

@@ -1,11 +1,12 @@
 """Two sets of runs compared by pairs of the same seed: quantities, and losses of frames by cause."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from gradysim.results.confidence_interval import Estimate, estimate
 from gradysim.results.means import means
 from gradysim.results.outcomes import loss_shares
-from gradysim.results.paired import Estimate, compare_pairs, estimate
+from gradysim.results.paired import compare_pairs
 from gradysim.results.quantity import Names
 from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs, fates_of, variables_of
@@ -56,7 +57,9 @@ class Pairs:
         `quantities` selects as in `read_means`. By default they are those that `gradysim means` prints.
         """
         wanted = dict.fromkeys(mean.quantity for mean in means(self.all_runs, quantities))
-        return self._compared(wanted, lambda run: run.numbers)
+        runs = self.all_runs
+        binary = {name for name in wanted if all(run.is_binary(name) for run in runs)}
+        return self._compared(wanted, lambda run: run.numbers, binary)
 
     def losses(self) -> list[Change]:
         """Return the change of each cause of loss, as a share of receptions, if any was lost."""
@@ -71,7 +74,10 @@ class Pairs:
         return [run for side in zip(*self.runs, strict=True) for run in side]
 
     def _compared(
-        self, quantities: Iterable[str], numbers_of: Callable[[RunSummary], Mapping[str, float]]
+        self,
+        quantities: Iterable[str],
+        numbers_of: Callable[[RunSummary], Mapping[str, float]],
+        binary: Container[str] = (),
     ) -> list[Change]:
         alike: dict[tuple[object, ...], list[tuple[RunSummary, RunSummary]]] = {}
         for pair in self.runs:
@@ -80,7 +86,8 @@ class Pairs:
         for values, pairs in alike.items():
             numbers = [(numbers_of(first), numbers_of(second)) for first, second in pairs]
             for name in quantities:
-                change = _change(dict(zip(self.variables, values, strict=True)), name, numbers)
+                of_values = dict(zip(self.variables, values, strict=True))
+                change = _change(of_values, name, numbers, binary=name in binary)
                 if change.first or change.second:
                     found.append(change)
         return found
@@ -90,13 +97,15 @@ def _change(
     values: Mapping[str, object],
     name: str,
     numbers: Sequence[tuple[Mapping[str, float], Mapping[str, float]]],
+    *,
+    binary: bool,
 ) -> Change:
     both = [(first[name], second[name]) for first, second in numbers if name in first and name in second]
     if both:
-        compared = compare_pairs(*zip(*both, strict=True))
+        compared = compare_pairs(*zip(*both, strict=True), binary=binary)
         return Change(values, name, compared.pairs, compared.first, compared.second, compared.difference)
     sides = [[of_run[name] for of_run in side if name in of_run] for side in zip(*numbers, strict=True)]
-    first, second = (estimate(side) if side else None for side in sides)
+    first, second = (estimate(side, binary=binary) if side else None for side in sides)
     return Change(values, name, 0, first, second, None)
 
 

@@ -1,7 +1,8 @@
-"""Confidence intervals of a mean, by Student's t distribution, and exact bounds of a ratio."""
+"""Confidence intervals of a mean: by Student's t distribution, or exact bounds of a ratio of successes."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
@@ -20,25 +21,72 @@ def mean_of(values: Sequence[float]) -> float:
         return float(sum(map(Fraction, values)) / len(values))
 
 
-def mean_with_half_width(values: Sequence[float]) -> tuple[float, float | None]:
-    """Return the mean and half the width of its 95 % confidence interval, None for a single value.
+@dataclass(frozen=True)
+class Estimate:
+    """Mean of numbers with its 95 % confidence interval.
 
-    The values are assumed to be independent and normally distributed. A width that overflows a float is
-    infinite.
+    Attributes:
+        low: Lower end of the interval; None for a single number.
+        high: Upper end, likewise.
     """
+
+    mean: float
+    low: float | None = None
+    high: float | None = None
+
+    @property
+    def half_width(self) -> float | None:
+        """Half the width of the interval. The mean is in its middle, unless the numbers are binary."""
+        return None if self.low is None or self.high is None else self.high / 2 - self.low / 2
+
+    @property
+    def excludes_zero(self) -> bool:
+        """Whether 0 is outside of the interval. False without an interval."""
+        return self.low is not None and self.high is not None and not self.low <= 0 <= self.high
+
+
+def estimate(values: Sequence[float], *, binary: bool = False) -> Estimate:
+    """Return the mean of independent numbers, at least one, with its interval.
+
+    Numbers that are not binary are assumed to be normally distributed. The interval is then that of Student's
+    t distribution. Ends that overflow a float are infinite.
+
+    Args:
+        values: The numbers, one for each run.
+        binary: Whether each number says that an event occurred, 1, or not, 0. The interval is then that of
+            `ratio_bounds`. Student's one would have no width if no run, or each run, had the event.
+
+    Raises:
+        ValueError: A binary number is neither 0 nor 1.
+    """
+    mean = mean_of(values)
     if len(values) < 2:
-        return mean_of(values), None
+        return Estimate(mean)
+    if binary:
+        if not are_binary(values):
+            raise ValueError(f"expected 0 and 1 as binary values, got {sorted(set(values))}")
+        return Estimate(mean, *ratio_bounds(round(sum(values)), len(values), (1 - CONFIDENCE) / 2))
+    half_width = _half_width(values)
+    return Estimate(mean, mean - half_width, mean + half_width)
+
+
+def are_binary(values: Iterable[float]) -> bool:
+    """Return whether all values are 0 or 1."""
+    return all(value in (0, 1) for value in values)
+
+
+def _half_width(values: Sequence[float]) -> float:
+    """Return half the width of the interval of Student's t distribution of two or more values."""
     # Relative to the smallest and largest value squares do not overflow. Halves do not, either.
     low = min(values) / 2
     half_range = max(values) / 2 - low
     if half_range == 0:
-        return mean_of(values), 0.0
+        return 0.0
     relative = [(value / 2 - low) / half_range for value in values]
     mean = mean_of(relative)
     # A sum of `fsum` is the same in any order of the values.
     variance = math.fsum([(value - mean) ** 2 for value in relative]) / (len(values) - 1)
-    half_width = _quantile(len(values) - 1) * math.sqrt(variance / len(values)) * half_range
-    return mean_of(values), 2 * half_width
+    return 2 * _quantile(len(values) - 1) * math.sqrt(variance / len(values)) * half_range
 
 
 def ratio_bounds(successes: int, count: int, error: float) -> tuple[float, float]:

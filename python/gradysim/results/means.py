@@ -11,7 +11,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TypeVar
 
-from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.confidence_interval import are_binary, estimate
 from gradysim.results.files import read_run_file
 from gradysim.results.quantity import Names, name_filter
 from gradysim.results.result_dir import read_results
@@ -31,7 +31,8 @@ class Mean:
             limit`: a ratio; `unicast messages delay in s`: the mean of a run's messages.
         runs: Number of runs with a number.
         mean: None if no run has a number.
-        half_width: Of the 95 % confidence interval; None for a single run.
+        low: Lower end of the 95 % confidence interval; None for a single run.
+        high: Upper end, likewise.
         left_out: Values of a tracked variable, at all nodes in all runs, that are left out because they are
             not finite numbers: `5 inf, 3 missing of 15`.
     """
@@ -42,7 +43,8 @@ class Mean:
     quantity: str
     runs: int
     mean: float | None
-    half_width: float | None
+    low: float | None
+    high: float | None
     left_out: str = ""
 
 
@@ -77,9 +79,10 @@ def means(results: Iterable[RunSummary], quantities: Names | None = None) -> lis
             and name not in unlisted
             and (name not in hidden_at_zero or any(_values(study, name)))
         ]
+        binary = {each for each in variables if are_binary(_values(study, " ".join(each)))}
         for alike in _by(study, lambda block: block.conditions.values):
             for group, name in variables:
-                found += _mean_of_variable(alike, group, name)
+                found += _mean_of_variable(alike, group, name, binary=(group, name) in binary)
             for name in shown:
                 if values := _values(alike, name):
                     found.append(_mean(alike, name, values))
@@ -177,7 +180,7 @@ def _by(items: Iterable[_Item], key: Callable[[_Item], object]) -> list[list[_It
     return list(groups.values())
 
 
-def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str) -> Iterator[Mean]:
+def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str, *, binary: bool) -> Iterator[Mean]:
     quantity = f"{group} {name}"
     reasons: Counter[str] = Counter()
     node_count = 0
@@ -192,11 +195,19 @@ def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str) -> Iterat
     if node_count:
         text = ", ".join(f"{reasons[what]} {what}" for what in REASONS if reasons[what])
         values = _values(blocks, quantity)
-        yield _mean(blocks, quantity, values, f"{text} of {node_count}" if text else "")
+        yield _mean(blocks, quantity, values, f"{text} of {node_count}" if text else "", binary=binary)
 
 
-def _mean(blocks: Sequence[_Block], quantity: str, values: Sequence[float], left_out: str = "") -> Mean:
-    mean, half_width = mean_with_half_width(values) if values else (None, None)
+def _mean(
+    blocks: Sequence[_Block],
+    quantity: str,
+    values: Sequence[float],
+    left_out: str = "",
+    *,
+    binary: bool = False,
+) -> Mean:
+    found = estimate(values, binary=binary) if values else None
+    mean, low, high = (found.mean, found.low, found.high) if found else (None, None, None)
     first = blocks[0].conditions
     return Mean(
         first.config,
@@ -205,6 +216,7 @@ def _mean(blocks: Sequence[_Block], quantity: str, values: Sequence[float], left
         quantity,
         len(values),
         mean,
-        half_width,
+        low,
+        high,
         left_out,
     )

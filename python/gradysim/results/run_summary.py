@@ -141,6 +141,13 @@ class RunSummary:
         position = self.conditions.positions.get(quantity)
         return None if position is None else self.row[position]
 
+    def is_binary(self, quantity: str) -> bool:
+        """Return whether a tracked variable is 0 or 1, or missing.
+
+        Other quantities are shares of many frames or messages. A share of 1 in each run is more than a yes.
+        """
+        return self.number(quantity) in (None, 0, 1) and quantity not in self.conditions.averages
+
     @property
     def file(self) -> Path:
         """The result file. `read_run_file` also finds it in a pack."""

@@ -23,7 +23,7 @@ Per = Literal["run", "node", "time"]
 OF_RUN = ("config", "mode", "run", "seed")
 """Columns of each table, and names of variables, in addition to iteration variables."""
 
-_TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs", "mean", "half_width"}
+_TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs", "mean", "low", "high"}
 """Names of other columns. An iteration variable with such a name has the column `$mode` and so on."""
 
 

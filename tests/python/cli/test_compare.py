@@ -46,7 +46,7 @@ def test_numbers_for_other_programs(gradysim, studies):
     said = rows(done.stdout)[0]
     assert said["quantity"] == "uavs[*] said"
     assert (said["pairs"], said["first"], said["second"]) == ("2", "3.0", "5.0")
-    assert (said["difference"], said["difference_half_width"]) == ("2.0", "0.0")
+    assert (said["difference"], said["difference_low"], said["difference_high"]) == ("2.0", "2.0", "2.0")
     assert (said["config"], said["mode"]) == ("General", "prototype")
 
 

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK
+from gradysim.cli.ladder import text_of
+from gradysim.results import Estimate
 from python.cli.command import Gradysim, environment
 from python.processes import session, wait_until
 
@@ -82,3 +84,18 @@ def test_ctrl_c_ends_a_command_at_once_with_all_of_its_processes(folder: Path) -
         process.communicate(timeout=30)
     assert process.returncode == INTERRUPTED
     wait_until(lambda: not session(process.pid), 5)
+
+
+@pytest.mark.parametrize(
+    ("found", "text"),
+    [
+        (Estimate(-279.25, -279.5, -279), "-279.2 ± 0.25"),
+        (Estimate(5815, 5815, 5815), "+5815 ± 0"),
+        (Estimate(0.9, 0.555, 0.9975), "+0.9 [0.56, 1]"),
+        (Estimate(0.5), "+0.5"),
+    ],
+)
+def test_both_ends_of_an_interval_are_told_if_the_mean_is_not_in_its_middle(
+    found: Estimate, text: str
+) -> None:
+    assert text_of(found, sign="+") == text

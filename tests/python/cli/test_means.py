@@ -17,8 +17,8 @@ def test_means_of_runs(gradysim):
         ["5", "uavs[*]", "said", "3", "5", "0"],
     ]
     in_csv = gradysim("means", "out", "--csv").stdout.splitlines()
-    assert in_csv[0] == "config,mode,limit,quantity,runs,mean,half_width,left_out"
-    assert "General,prototype,3,uavs[*] said,3,3.0,0.0," in in_csv
+    assert in_csv[0] == "config,mode,limit,quantity,runs,mean,low,high,left_out"
+    assert "General,prototype,3,uavs[*] said,3,3.0,3.0,3.0," in in_csv
 
 
 def test_only_the_quantities_that_are_wanted(gradysim):

@@ -32,7 +32,7 @@ def test_a_line_of_means(gradysim, study):
     assert [
         f"General,prototype,{row['limit'].split('.')[0]},uavs[*] said,{row['runs']},{row['mean']}"
         for row in rows(study / "said.csv")
-    ] == [line.rsplit(",", 2)[0] for line in means[1:]]
+    ] == [line.rsplit(",", 3)[0] for line in means[1:]]
     origin = json.loads((study / "said.json").read_text())
     assert (origin["kind"], origin["x"], origin["y"]) == ("line", "limit", "uavs[*] said")
     assert len(origin["runs"]) == 6

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from gradysim.results import read_means
+from gradysim.results.confidence_interval import ratio_bounds
 from python.cli.command import QUIET
 
 DRAWN = f"""{QUIET}
@@ -14,6 +15,8 @@ class Drawn(Quiet):
     def initialize(self):
         self.provider.tracked_variables["level"] = 10 + self.spread * self.provider.random.uniform(-1, 1)
         self.provider.tracked_variables["nothing"] = 0.0
+        self.provider.tracked_variables["count"] = 0 if self.spread < 1 else 5
+        self.provider.tracked_variables["found"] = self.provider.random.random() < 0.7
 """
 
 STUDY = """[General]
@@ -50,7 +53,7 @@ def test_each_combination_has_as_many_repetitions_as_it_needs(study, folder):
     assert means[0].runs == 5
     assert 5 < means[1].runs < 30
     for mean in means:
-        assert mean.half_width < 0.05 * mean.mean
+        assert mean.high - mean.mean < 0.05 * mean.mean
     runs = runs_in(folder / "out")
     assert runs == [*range(5), *range(30, 30 + means[1].runs)]
     assert f"General: {len(runs)} of 60 runs reach {LEVEL}\n" in done.stdout
@@ -93,9 +96,23 @@ def test_too_few_repetitions_are_warned_of(study, folder):
     assert len(runs_in(folder / "out")) == 5 + 7
 
 
-def test_a_mean_of_zero(study, folder):
-    study("--until", "ci(uavs[*] nothing) < 5%", "-r", "0..29")
-    assert runs_in(folder / "out") == list(range(5))
+def test_an_event_that_no_run_had_needs_runs_enough_to_be_improbable(study, folder):
+    """After 10 runs, an event with a probability of 31 % is still possible; after 15, of 22 %."""
+    study("--until", "ci(uavs[*] nothing) < 30%", "-r", "0..29")
+    assert runs_in(folder / "out") == list(range(15))
+
+
+def test_a_count_of_zero_is_complete_if_other_runs_have_more_than_one(study, folder):
+    study("--until", "ci(uavs[*] count) < 5%")
+    assert runs_in(folder / "out") == [*range(5), *range(30, 35)]
+
+
+def test_the_interval_of_an_event_decides(study, folder):
+    study("--until", "ci(uavs[*] found) < 60%")
+    for mean in read_means(folder / "out", "uavs[*] found"):
+        bounds = ratio_bounds(round(mean.mean * mean.runs), mean.runs, 0.025)
+        assert (mean.low, mean.high) == pytest.approx(bounds)
+        assert (mean.high - mean.low) / 2 < 0.6 * mean.mean
 
 
 def test_a_failing_run_ends_the_study(gradysim):

@@ -45,13 +45,23 @@ def test_its_other_commands_select_quantities(
     assert len((study / "means.csv").read_text().splitlines()) == 1 + 4 * 4
 
 
+@pytest.mark.verify
+def test_the_interval_of_an_event_is_shown_by_its_ends(
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], swarm: Path
+) -> None:
+    (swarm / "alarm.ini").write_text(code_blocks(GUIDE, "ini")[0])
+    printed = shell(code_blocks(GUIDE, "sh")[2], swarm).splitlines()
+    assert [line.rstrip() for line in printed] == code_blocks(GUIDE, "text")[1].splitlines()
+
+
 def test_its_script_computes_the_means_of_the_command(code_blocks: CodeBlocks, study: Path) -> None:
     names: dict[str, Any] = {}
     exec("\n".join(code_blocks(GUIDE, "python")), names)
     results = str(study / "results")
     heard = {mean.iterations["vehicles"]: mean for mean in read_means(results, "station heard")}
-    assert names["arrived"](results) == {
-        vehicles: pytest.approx((mean.mean / sent, mean.half_width / sent))
+    arrived = names["arrived"](results)
+    assert {vehicles: (share.mean, share.low, share.high) for vehicles, share in arrived.items()} == {
+        vehicles: pytest.approx((mean.mean / sent, mean.low / sent, mean.high / sent))
         for vehicles, mean in heard.items()
         for sent in [59 * int(str(vehicles))]  # 59 reports of each vehicle
     }

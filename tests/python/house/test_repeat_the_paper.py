@@ -16,7 +16,7 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.run import run
-from gradysim.results.confidence_interval import mean_with_half_width
+from gradysim.results.confidence_interval import estimate
 from gradysim.scenario import load_scenarios
 
 GUIDE = "docs/how-to/repeat-the-paper.md"
@@ -71,7 +71,7 @@ def test_the_figures_are_drawn_from_a_study(
             block = block.replace(old, new)
         shell(block, root)
     collected = (tmp_path / "collected.csv").read_text().splitlines()
-    assert collected[0] == "config,mode,time (s),runs,mean,half_width"
+    assert collected[0] == "config,mode,time (s),runs,mean,low,high"
     assert len(collected) == 1 + 6 * 241
     assert len((tmp_path / "cost.csv").read_text().splitlines()) == 1 + 6 * 3
 
@@ -90,8 +90,8 @@ def test_at_the_ground_station_all_heartbeats_meet_its_own(
 
 @pytest.mark.verify
 def test_the_mean_of_ten_runs_is_that_of_the_table(root: Path, text: str) -> None:
-    mean, half_width = mean_with_half_width(readings(root, "ZigZag5", "repeat = 10"))
-    told = f"{mean:,.0f} ± {half_width:.0f}"
+    found = estimate(readings(root, "ZigZag5", "repeat = 10"))
+    told = f"{found.mean:,.0f} ± {found.half_width:.0f}"
     assert re.search(rf"^\| ZigZag5 \| integrated \| .* \| {told} \| .* s \|$", text, re.MULTILINE)
     assert f"| -96.616 dBm, that of the scenario | {told} |" in text
 
@@ -99,8 +99,8 @@ def test_the_mean_of_ten_runs_is_that_of_the_table(root: Path, text: str) -> Non
 @pytest.mark.verify
 def test_more_noise_leaves_what_the_table_says(root: Path, text: str) -> None:
     noise = "*.radioMedium.backgroundNoise.power = -93dBm"
-    mean, half_width = mean_with_half_width(readings(root, "ZigZag5", noise, "repeat = 10"))
-    assert f"| -93 dBm | {mean:,.0f} ± {half_width:.0f} |" in text
+    found = estimate(readings(root, "ZigZag5", noise, "repeat = 10"))
+    assert f"| -93 dBm | {found.mean:,.0f} ± {found.half_width:.0f} |" in text
 
 
 def test_half_of_the_frames_arrive_over_the_ranges_of_the_table(root: Path, text: str) -> None:

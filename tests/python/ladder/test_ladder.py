@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from gradysim.ladder.campaign import Campaign
 from gradysim.ladder.ladder import climb, largest_drop
+from gradysim.results import compare_pairs, estimate
 
 
 def test_the_metric_drops_where_frames_overlap(make_campaign: Callable[..., Campaign]) -> None:
@@ -21,3 +22,12 @@ def test_messages_that_did_not_fit_into_the_queue_are_a_loss(make_campaign: Call
     assert before.loss == ""
     assert after.loss == "queue_overflow"
     assert 0.2 < after.loss_ratio < 0.6
+
+
+def test_an_event_of_all_runs_is_not_certain(make_campaign: Callable[..., Campaign]) -> None:
+    """Two nodes send a beacon each, at the same time. From level 4 on, they collide."""
+    campaign = make_campaign("*.numNodes=2", "sim-time-limit=1.05s", run_count=5)
+    before, after = climb(campaign, "nodes[*] heard", range(3, 5))
+    assert before.metric == estimate([1] * 5, binary=True)
+    assert after.metric == estimate([0] * 5, binary=True)
+    assert after.change == compare_pairs([1] * 5, [0] * 5, binary=True).difference

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from gradysim import plots
 from gradysim.plots.cdf import cdf_numbers
-from gradysim.results import mean_with_half_width, runs
+from gradysim.results import estimate, runs
 from gradysim.scenario.errors import ConfigError
 from python.study_files import write_result
 
@@ -22,12 +22,13 @@ def test_delays_of_messages_are_the_mean_of_the_runs(tmp_path: Path) -> None:
     with_delays(tmp_path, 0, [1.0, 3.0], [0.4, 1.0])
     with_delays(tmp_path, 1, [2.0, 3.0], [0.5, 1.0])
     (curve,) = cdf_numbers(runs(tmp_path), y=DELAY).curves
-    rows = [mean_with_half_width(shares) for shares in ([0.4, 0], [0.4, 0.5], [1, 1])]
+    rows = [estimate(shares) for shares in ([0.4, 0], [0.4, 0.5], [1, 1])]
     assert curve.columns == {
         DELAY: [1, 2, 3],
         "runs": [2, 2, 2],
-        "mean": [mean for mean, _ in rows],
-        "half_width": [half for _, half in rows],
+        "mean": [row.mean for row in rows],
+        "low": [row.low for row in rows],
+        "high": [row.high for row in rows],
     }
 
 
@@ -36,7 +37,7 @@ def test_a_tracked_variable_is_distributed_over_the_nodes_of_a_run(tmp_path: Pat
     (curve,) = cdf_numbers(runs(tmp_path), y="uavs[*] heard").curves
     assert curve.x == [1, 5]
     assert curve.columns["mean"] == [pytest.approx(1 / 3), 1]
-    assert curve.columns["half_width"] == [None, None]
+    assert curve.columns["low"] == curve.columns["high"] == [None, None]
 
 
 @pytest.mark.parametrize("quantity", ["uavs[*] heard", "events"])
@@ -49,7 +50,8 @@ def test_a_number_for_each_run_is_distributed_over_runs(tmp_path: Path, quantity
         quantity: [0, 1, 2, 3],
         "runs": [4] * 4,
         "mean": [0.25, 0.5, 0.75, 1],
-        "half_width": [None] * 4,
+        "low": [None] * 4,
+        "high": [None] * 4,
     }
     assert "n = 4 runs" in numbers.caption
 

@@ -14,9 +14,9 @@ def change(quantity: str, first: float, difference: float, values: Mapping[str, 
         {"mode": "integrated", **values},
         quantity,
         5,
-        Estimate(first, 1),
-        Estimate(first + difference, 1),
-        Estimate(difference, 0.5),
+        Estimate(first),
+        Estimate(first + difference),
+        Estimate(difference, difference - 0.5, difference + 0.5),
     )
 
 
@@ -25,7 +25,7 @@ CHANGES = [
     change("sent", 0, 1, {"x": 1}),
     change("delay in s", -2, 1, {"x": 1}),
     change("heard", 20, -1, {"x": 2}),
-    Change({"mode": "integrated", "x": 2}, "lost", 0, Estimate(1, 1), None, None),
+    Change({"mode": "integrated", "x": 2}, "lost", 0, Estimate(1), None, None),
 ]
 
 
@@ -33,7 +33,8 @@ def test_changes_are_in_percent_of_the_first_mean() -> None:
     numbers = changes_numbers(CHANGES, "a", "b")
     assert [curve.label for curve in numbers.curves] == ["x = 1", "x = 2"]
     assert [curve.columns["percent"] for curve in numbers.curves] == [[10, 50], [-5]]
-    assert numbers.curves[0].columns["percent_half_width"] == [5, 25]
+    assert numbers.curves[0].columns["percent_low"] == [5, 25]
+    assert numbers.curves[0].columns["percent_high"] == [15, 75]
     assert numbers.curves[0].columns["difference"] == [1, 1]
     assert numbers.categories == ["heard", "delay in s"]
 

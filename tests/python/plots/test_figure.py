@@ -31,7 +31,7 @@ def test_the_numbers_are_those_of_the_figure(tmp_path: Path, study: Runs) -> Non
     _, numbers, _ = save_figure(tmp_path / "f.svg", study, x="jitter", y=HEARD)
     with numbers.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert list(rows[0]) == ["mode", "jitter (ms)", "runs", "mean", "half_width"]
+    assert list(rows[0]) == ["mode", "jitter (ms)", "runs", "mean", "low", "high"]
     assert [(row["mode"], float(row["jitter (ms)"]), float(row["mean"])) for row in rows] == [
         ("integrated", 1, 12),
         ("integrated", 2, 61 / 3),

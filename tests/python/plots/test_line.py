@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 
 from gradysim import plots
 from gradysim.plots.line import diff_numbers, line_numbers
-from gradysim.results import Runs, mean_with_half_width, runs
+from gradysim.results import Runs, compare_pairs, estimate, runs
 from gradysim.scenario.errors import ConfigError
 from python.study_files import write_result
 
@@ -14,13 +14,14 @@ HEARD = "uavs[*] heard"
 
 def test_means_and_intervals_are_those_of_the_runs(study: Runs) -> None:
     integrated, prototype = line_numbers(study, x="jitter", y=HEARD).curves
-    of_1ms, of_2ms = mean_with_half_width([11, 12, 13]), mean_with_half_width([20, 20, 21])
+    of_1ms, of_2ms = estimate([11, 12, 13]), estimate([20, 20, 21])
     assert integrated.values == {"mode": "integrated"}
     assert integrated.columns == {
         "jitter (ms)": [1, 2],
         "runs": [3, 3],
-        "mean": [of_1ms[0], of_2ms[0]],
-        "half_width": [of_1ms[1], of_2ms[1]],
+        "mean": [of_1ms.mean, of_2ms.mean],
+        "low": [of_1ms.low, of_2ms.low],
+        "high": [of_1ms.high, of_2ms.high],
     }
     assert prototype.columns["mean"] == [10, 20]
 
@@ -72,7 +73,23 @@ def test_a_value_that_only_some_runs_have(tmp_path: Path) -> None:
     for run, heard in enumerate((1, "text", 5)):
         write_result(tmp_path, run, (heard,), iterations={"x": run})
     (curve,) = line_numbers(runs(tmp_path), x="x", y=HEARD).curves
-    assert curve.columns == {"x": [0, 2], "runs": [1, 1], "mean": [1, 5], "half_width": [None, None]}
+    nothing = [None, None]
+    assert curve.columns == {"x": [0, 2], "runs": [1, 1], "mean": [1, 5], "low": nothing, "high": nothing}
+
+
+@pytest.mark.parametrize(("later", "binary"), [((1, 1), True), ((1, 2), False)])
+def test_intervals_are_those_of_an_event_if_all_runs_have_0_or_1(
+    axes: Axes, tmp_path: Path, later: tuple[int, int], binary: bool
+) -> None:
+    for run, heard in enumerate((0, 0, *later)):
+        write_result(tmp_path, run, (heard,), iterations={"x": run // 2})
+    (curve,) = line_numbers(runs(tmp_path), x="x", y=HEARD).curves
+    found = [estimate([0, 0], binary=binary), estimate(later, binary=binary)]
+    assert curve.columns["high"] == [each.high for each in found]
+    plots.line(axes, runs(tmp_path), x="x", y=HEARD)
+    (segments,) = axes.containers[0][2]
+    drawn = [segment[:, 1].tolist() for segment in segments.get_segments()]
+    assert drawn == [pytest.approx([each.low, each.high]) for each in found]
 
 
 def test_an_unknown_quantity(study: Runs) -> None:
@@ -83,15 +100,24 @@ def test_an_unknown_quantity(study: Runs) -> None:
 
 def test_differences_are_those_between_runs_of_the_same_seed(study: Runs) -> None:
     (curve,) = diff_numbers(study, x="jitter", y=HEARD, by=["mode"], baseline="prototype").curves
-    of_1ms, of_2ms = mean_with_half_width([1, 2, 3]), mean_with_half_width([0, 0, 1])
+    of_1ms, of_2ms = estimate([1, 2, 3]), estimate([0, 0, 1])
     assert curve.values == {"mode": "integrated - prototype"}
     assert curve.columns == {
         "jitter (ms)": [1, 2],
-        "mean": [of_1ms[0], of_2ms[0]],
-        "half_width": [of_1ms[1], of_2ms[1]],
+        "mean": [of_1ms.mean, of_2ms.mean],
+        "low": [of_1ms.low, of_2ms.low],
+        "high": [of_1ms.high, of_2ms.high],
         "pairs": [3, 3],
         "higher": [3, 1],
     }
+
+
+def test_differences_of_an_event_are_not_certain(tmp_path: Path) -> None:
+    for mode in ("integrated", "prototype"):
+        for seed in range(3):
+            write_result(tmp_path, seed, (1,), mode=mode, seed=seed, iterations={"x": 1})
+    (curve,) = diff_numbers(runs(tmp_path), x="x", y=HEARD).curves
+    assert curve.columns["high"] == [compare_pairs([1] * 3, [1] * 3, binary=True).difference.high]
 
 
 def test_the_first_value_is_the_baseline_by_default(study: Runs) -> None:

@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 
 from gradysim import plots
 from gradysim.plots.outcomes import outcomes_numbers
-from gradysim.results import Runs, mean_with_half_width, runs
+from gradysim.results import Runs, estimate, runs
 from gradysim.scenario.errors import ConfigError
 from python.study_files import write_result
 
@@ -24,11 +24,12 @@ def losses(tmp_path: Path) -> Runs:
 def test_shares_of_what_was_decided(losses: Runs) -> None:
     numbers = outcomes_numbers(losses, y="broadcast frames", x="jitter")
     shares = {str(curve.values["outcome"]): curve.columns["mean"] for curve in numbers.curves}
-    mean_delivered, half_width = mean_with_half_width([6 / 16, 3 / 16])
+    of_1 = estimate([6 / 16, 3 / 16])
     assert list(shares) == ["delivered", "noise", "below sensitivity"]
-    assert shares["delivered"] == [mean_delivered, 10 / 16]
+    assert shares["delivered"] == [of_1.mean, 10 / 16]
     assert [sum(each) for each in zip(*shares.values(), strict=True)] == pytest.approx([1, 1])
-    assert numbers.curves[0].columns["half_width"] == [half_width, None]
+    assert numbers.curves[0].columns["low"] == [of_1.low, None]
+    assert numbers.curves[0].columns["high"] == [of_1.high, None]
     assert numbers.curves[0].columns["jitter"] == [1, 2]
 
 

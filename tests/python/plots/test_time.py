@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 from gradysim import plots
 from gradysim.plots.numbers import Curve
 from gradysim.plots.time import time_numbers
-from gradysim.results import mean_with_half_width, runs
+from gradysim.results import Estimate, estimate, runs
 from gradysim.scenario.errors import ConfigError
 from python.study_files import write_result, write_vectors
 
@@ -18,10 +18,10 @@ def heard(node: int) -> tuple[str, str, str]:
     return f"uavs[{node}]", "protocol", "heard"
 
 
-def at(curve: Curve, time: float) -> tuple[float, float | None, int]:
+def at(curve: Curve, time: float) -> tuple[Estimate, int]:
     index = list(curve.x).index(time)
-    mean, half, count = (curve.columns[name][index] for name in ("mean", "half_width", "runs"))
-    return mean, half, count
+    mean, low, high, count = (curve.columns[name][index] for name in ("mean", "low", "high", "runs"))
+    return Estimate(mean, low, high), count
 
 
 def test_the_mean_of_the_nodes_and_of_the_runs_at_each_time(tmp_path: Path) -> None:
@@ -31,7 +31,15 @@ def test_the_mean_of_the_nodes_and_of_the_runs_at_each_time(tmp_path: Path) -> N
     assert next(iter(curve.columns)) == "time (s)"
     assert (curve.x[0], curve.x[-1]) == (0, 10)
     for time, of_runs in ((0, [1, 4]), (5, [6, 4]), (10, [6, 4])):
-        assert at(curve, time) == (*mean_with_half_width(of_runs), 2)
+        assert at(curve, time) == (estimate(of_runs), 2)
+
+
+def test_the_probability_of_an_event_over_time_has_exact_intervals(tmp_path: Path) -> None:
+    write_vectors(write_result(tmp_path, 0), {heard(0): {0: 0, 5: 1}})
+    write_vectors(write_result(tmp_path, 1), {heard(0): {0: 0}})
+    (curve,) = time_numbers(runs(tmp_path), y=HEARD).curves
+    for time, of_runs in ((0, [0, 0]), (5, [1, 0])):
+        assert at(curve, time) == (estimate(of_runs, binary=True), 2)
 
 
 def test_before_the_first_number_there_is_no_point(tmp_path: Path) -> None:
@@ -72,8 +80,8 @@ def test_runs_without_vectors(tmp_path: Path) -> None:
 
 def test_what_is_drawn(axes: Axes, tmp_path: Path) -> None:
     for run in range(2):
-        write_vectors(write_result(tmp_path, run), {heard(0): {0: run}})
+        write_vectors(write_result(tmp_path, run), {heard(0): {0: 2 * run}})
     assert plots.time(axes, runs(tmp_path), y=HEARD) is axes
-    assert set(axes.lines[0].get_ydata()) == {0.5}
+    assert set(axes.lines[0].get_ydata()) == {1}
     (band,) = axes.collections
-    assert band.get_datalim(axes.transData).height == pytest.approx(2 * 12.706 * 0.5, rel=1e-3)
+    assert band.get_datalim(axes.transData).height == pytest.approx(2 * 12.706, rel=1e-3)

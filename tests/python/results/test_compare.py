@@ -2,9 +2,8 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.results import Runs, runs
+from gradysim.results import Estimate, Runs, compare_pairs, runs
 from gradysim.results.compare import pair_runs, varying_values
-from gradysim.results.paired import Estimate, compare_pairs
 from gradysim.scenario.errors import ConfigError
 from python.study_files import write_result
 
@@ -52,7 +51,7 @@ def test_a_variable_without_common_values_is_what_is_compared(tmp_path: Path) ->
     both = study(tmp_path, {0: 2}, mode="prototype")
     pairs = pair_runs(both.where(mode="integrated"), both.where(mode="prototype"))
     assert pairs.variables == ["config"]
-    assert pairs.changes()[0].difference == Estimate(1, None)
+    assert pairs.changes()[0].difference == Estimate(1)
 
 
 def test_a_quantity_of_one_side_alone_has_no_difference(tmp_path: Path) -> None:
@@ -61,7 +60,20 @@ def test_a_quantity_of_one_side_alone_has_no_difference(tmp_path: Path) -> None:
     second = study(tmp_path / "b", {0: 1, 1: 2}, fates=fates)
     change = pair_runs(first, second).changes("unicast messages delivered")[0]
     assert (change.pairs, change.first, change.difference) == (0, None, None)
-    assert change.second == Estimate(0.75, 0)
+    assert change.second == Estimate(0.75, 0.75, 0.75)
+
+
+def test_an_event_has_exact_intervals_unless_another_value_has_more_than_one(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        study(tmp_path / name, {0: 1, 1: 0}, iterations={"x": 1})
+    first, second = (runs(tmp_path / name) for name in ("a", "b"))
+    (event,) = pair_runs(first, second).changes()
+    expected = compare_pairs([1, 0], [1, 0], binary=True)
+    assert (event.first, event.difference) == (expected.first, expected.difference)
+    second = study(tmp_path / "b", {0: 2, 1: 1}, 2, iterations={"x": 2})
+    first = study(tmp_path / "a", {0: 1, 1: 1}, 2, iterations={"x": 2})
+    count, _ = pair_runs(first, second).changes()
+    assert count.difference == Estimate(0, 0, 0)
 
 
 def test_losses_are_shares_of_receptions(tmp_path: Path) -> None:
@@ -73,7 +85,7 @@ def test_losses_are_shares_of_receptions(tmp_path: Path) -> None:
     second = study(tmp_path / "b", {0: 1, 1: 1}, fates=fates(3, 0))
     (loss,) = pair_runs(first, second).losses()
     assert loss.quantity == "broadcast frames noise"
-    assert (loss.first, loss.second) == (Estimate(0.1, 0), Estimate(0.3, 0))
+    assert (loss.first, loss.second) == (Estimate(0.1, 0.1, 0.1), Estimate(0.3, 0.3, 0.3))
 
 
 def test_runs_without_a_common_seed(tmp_path: Path) -> None:

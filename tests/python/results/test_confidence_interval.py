@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results.confidence_interval import mean_of, mean_with_half_width, ratio_bounds
+from gradysim.results.confidence_interval import Estimate, estimate, mean_of, ratio_bounds
 
 
 @pytest.mark.parametrize(
@@ -19,27 +19,30 @@ def test_half_widths_agree_with_the_table_of_student(runs: int, quantile: float)
     values = [1.0] * ones + [0.0] * (runs - ones)
     mean = ones / runs
     deviation = (runs * mean * (1 - mean) / (runs - 1)) ** 0.5
-    assert mean_with_half_width(values) == (
-        pytest.approx(mean),
-        pytest.approx(quantile * deviation / runs**0.5, rel=3e-4),
+    found = estimate(values)
+    assert found.mean == pytest.approx(mean)
+    assert found.half_width == pytest.approx(quantile * deviation / runs**0.5, rel=3e-4)
+    assert (found.low, found.high) == (
+        pytest.approx(mean - found.half_width),
+        pytest.approx(mean + found.half_width),
     )
 
 
 def test_a_single_value_has_no_interval() -> None:
-    assert mean_with_half_width([3.0]) == (3.0, None)
+    assert estimate([3.0]) == estimate([3.0], binary=True) == Estimate(3.0, None, None)
 
 
 @given(st.floats(-1e6, 1e6), st.integers(2, 50))
 def test_equal_values_have_an_interval_of_no_width(value: float, runs: int) -> None:
-    mean, half_width = mean_with_half_width([value] * runs)
-    assert (mean, half_width) == (pytest.approx(value), pytest.approx(0, abs=1e-6))
+    found = estimate([value] * runs)
+    assert (found.mean, found.half_width) == (pytest.approx(value), pytest.approx(0, abs=1e-6))
 
 
 @given(st.lists(st.floats(-100, 100), min_size=2, max_size=20), st.floats(-100, 100))
 def test_an_interval_moves_with_its_values(values: list[float], by: float) -> None:
-    mean, half_width = mean_with_half_width(values)
-    moved = mean_with_half_width([value + by for value in values])
-    assert moved == (pytest.approx(mean + by, abs=1e-9), pytest.approx(half_width, abs=1e-6))
+    found, moved = estimate(values), estimate([value + by for value in values])
+    assert moved.mean == pytest.approx(found.mean + by, abs=1e-9)
+    assert moved.half_width == pytest.approx(found.half_width, abs=1e-6)
 
 
 HUGE = sys.float_info.max
@@ -57,7 +60,7 @@ HUGE = sys.float_info.max
 )
 def test_a_mean_may_be_of_numbers_whose_sum_is_none(values: list[float], mean: float) -> None:
     assert mean_of(values) == mean
-    assert mean_with_half_width(values)[0] == mean
+    assert estimate(values).mean == mean
 
 
 @pytest.mark.parametrize(
@@ -67,11 +70,33 @@ def test_a_mean_may_be_of_numbers_whose_sum_is_none(values: list[float], mean: f
         ([HUGE, -HUGE], math.inf),
         ([HUGE, -HUGE] * 50, pytest.approx(1.98422 / math.sqrt(99) * HUGE, rel=1e-5)),
         ([0.0, 1e290], pytest.approx(12.7062 * 1e290 / 2, rel=1e-5)),
-        ([0.0, 0.0, -HUGE, -HUGE], pytest.approx(3.18245 / math.sqrt(12) * HUGE, rel=1e-5)),
+        ([0.0, 0.0, -HUGE, -HUGE], math.inf),  # the lower end, not half of the width
     ],
 )
 def test_an_interval_may_be_of_huge_numbers(values: list[float], half_width: float) -> None:
-    assert mean_with_half_width(values)[1] == half_width
+    assert estimate(values).half_width == half_width
+
+
+@pytest.mark.parametrize(
+    ("values", "successes"), [([0, 0, 0], 0), ([1.0, 1.0, 1.0], 3), ([True, False, 1], 2)]
+)
+def test_the_interval_of_an_event_is_exact(values: list[float], successes: int) -> None:
+    found = estimate(values, binary=True)
+    assert found.mean == successes / 3
+    assert (found.low, found.high) == pytest.approx(ratio_bounds(successes, 3, 0.025))
+
+
+def test_an_event_happens_or_not() -> None:
+    with pytest.raises(ValueError, match=r"got \[0, 2\]"):
+        estimate([0, 2, 0], binary=True)
+
+
+@pytest.mark.parametrize(
+    ("ends", "excludes"),
+    [((-5, -1), True), ((0, 4), False), ((1, 1), True), ((0, 0), False), ((None, None), False)],
+)
+def test_an_interval_excludes_zero_or_not(ends: tuple[float | None, float | None], excludes: bool) -> None:
+    assert Estimate(2, *ends).excludes_zero is excludes
 
 
 @pytest.mark.parametrize(

@@ -43,9 +43,22 @@ def quantities(results: list[RunSummary]) -> dict[str, float | None]:
 
 def test_a_tracked_variable_counts_with_the_mean_of_its_group() -> None:
     (mean,) = means([figures(0, (1, 3)), figures(1, (3, 5))])
-    assert mean == Mean(
-        "Study", "integrated", {"jitter": "10ms"}, "uavs[*] heard", 2, 3.0, pytest.approx(12.706, abs=1e-3)
-    )
+    ends = pytest.approx(3 - 12.706, abs=1e-3), pytest.approx(3 + 12.706, abs=1e-3)
+    assert mean == Mean("Study", "integrated", {"jitter": "10ms"}, "uavs[*] heard", 2, 3.0, *ends)
+
+
+@pytest.mark.parametrize(("elsewhere", "low"), [(1, 0.1581), (2, 1)])
+def test_an_event_of_all_runs_is_not_certain_unless_it_is_a_count(elsewhere: float, low: float) -> None:
+    """The quantity is one of an event if it is 0 or 1 for all values of variables."""
+    others = [figures(run, (elsewhere,), iterations={"jitter": "20ms"}) for run in (2, 3)]
+    mean = means([figures(0, (1,)), figures(1, (1,)), *others])[0]
+    assert (mean.mean, mean.low, mean.high) == (1, pytest.approx(low, abs=1e-4), 1)
+
+
+def test_a_share_of_all_frames_is_not_an_event() -> None:
+    fates = {"frames": {"broadcast": {"delivered": 100}}}
+    (mean,) = means([figures(run, (), fates=fates) for run in range(2)])
+    assert (mean.mean, mean.low, mean.high) == (1, 1, 1)
 
 
 def test_a_delay_counts_with_the_mean_of_each_run() -> None:
@@ -79,7 +92,7 @@ def test_groups_and_single_nodes_are_apart() -> None:
 def test_numbers_may_be_as_large_as_a_float_holds() -> None:
     largest = sys.float_info.max
     (mean,) = means([figures(0, (largest, largest)), figures(1, (largest, largest))])
-    assert (mean.mean, mean.half_width) == (largest, 0)
+    assert (mean.mean, mean.low, mean.high) == (largest, largest, largest)
 
 
 def test_what_is_left_out_is_told_with_the_number_of_values() -> None:
@@ -95,9 +108,9 @@ def test_nodes_and_runs_without_a_variable_are_told() -> None:
 
 def test_where_no_node_has_a_number_there_is_no_mean() -> None:
     found = means([figures(0, (1,)), figures(1, (None,), iterations={"jitter": "20ms"})])
-    assert [(mean.mean, mean.half_width, mean.runs, mean.left_out) for mean in found] == [
-        (1, None, 1, ""),
-        (None, None, 0, "1 nan or None of 1"),
+    assert [(mean.mean, mean.low, mean.high, mean.runs, mean.left_out) for mean in found] == [
+        (1, None, None, 1, ""),
+        (None, None, None, 0, "1 nan or None of 1"),
     ]
 
 
@@ -154,7 +167,7 @@ def test_other_values_modes_and_configurations_are_apart() -> None:
         {"config": "Other"},
     ]
     found = means([figures(run, (run,), **change) for run, change in enumerate(changes)])
-    assert [(mean.mean, mean.runs, mean.half_width) for mean in found] == [
+    assert [(mean.mean, mean.runs, mean.low) for mean in found] == [
         (run, 1, None) for run in range(len(changes))
     ]
 
