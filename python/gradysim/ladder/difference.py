@@ -275,6 +275,7 @@ class _Comparison:
             or self._order(found)
             or self._unseen_message(found)
             or self._position(found)
+            or self._earlier_order(found)
             or self._delay(found)
         )
         return self._with_effects(found, explanation)
@@ -305,18 +306,46 @@ class _Comparison:
             if is_crossed and one[before].node == node and (one[before].effects or other[after].effects):
                 distance = abs(one[before].time_ns - at[0]) + abs(other[after].time_ns - at[1])
                 nearest = min(nearest or (distance, before, after), (distance, before, after))
-        if nearest is None:
-            return None
-        _, before, after = nearest
-        crossed = _Finding(0, before, after)
-        event, second, is_later = self._event(found), self._event(crossed), found.after > after
-        times = (one[before].time_ns, other[after].time_ns)
-        apart = [(mine - its) / _NS_PER_S for mine, its in zip(at, times, strict=True)]
-        if not event.sender and second.sender:
-            event, second, is_later = second, event, not is_later
-            apart = [-each for each in apart]
-        time_s = min(at[1], times[1]) / _NS_PER_S
-        return Difference("order", time_s, self._names[node], event, second, (apart[0], apart[1]), is_later)
+        return None if nearest is None else self._crossed(found, _Finding(0, *nearest[1:]))
+
+    def _earlier_order(self, found: _Finding) -> Difference | None:
+        """Return the last two callbacks of the node before this one that changed places.
+
+        What they changed was not seen. It may be inside an object.
+        """
+        node = self._callback(found).node
+        crossed: tuple[_Finding, _Finding] | None = None
+        last: _Finding | None = None
+        for before, after in sorted(self._after_of.items()):
+            is_earlier = not (before >= found.before >= 0 or after >= found.after >= 0)
+            if is_earlier and self._works.callbacks[before].node == node:
+                pair = _Finding(0, before, after)
+                if last is None or after > last.after:
+                    last = pair
+                else:
+                    crossed = (pair, last)
+        return None if crossed is None else self._crossed(*crossed)
+
+    def _crossed(self, one: _Finding, other: _Finding) -> Difference:
+        """Return the difference of two callbacks that come in another order."""
+        if not self._event(one).sender and self._event(other).sender:
+            one, other = other, one
+        before, after = (
+            (recording.callbacks[first].time_ns, recording.callbacks[second].time_ns)
+            for recording, first, second in (
+                (self._works, one.before, other.before),
+                (self._fails, one.after, other.after),
+            )
+        )
+        return Difference(
+            "order",
+            min(after) / _NS_PER_S,
+            self._names[self._callback(one).node],
+            self._event(one),
+            self._event(other),
+            ((before[0] - before[1]) / _NS_PER_S, (after[0] - after[1]) / _NS_PER_S),
+            one.after > other.after,
+        )
 
     def _unseen_message(self, found: _Finding) -> Difference | None:
         """Return the last message before this callback that arrives at the node in one run only.

@@ -230,6 +230,29 @@ class Other(Node):
     assert names(found) == ({"found"}, {"nothing"})
 
 
+def test_an_order_before_what_it_changes(tmp_path: Path) -> None:
+    """What the message and the timer change are values in a dictionary, which the log does not see."""
+    hides = """
+class Other(Node):
+    def initialize(self):
+        self.seen = {"beacon": False, "in time": False}
+        self.after("look", 1.00001)
+    def handle_packet(self, message):
+        self.seen["beacon"] = True
+    def handle_timer(self, timer):
+        if timer == "look":
+            self.seen["in time"] = self.seen["beacon"]
+            self.provider.schedule_timer("act", 1.5)
+        else:
+            self.count("found" if self.seen["in time"] else "nothing")
+"""
+    found = difference(tmp_path, BEACONS + hides, "range", "airtime")
+    assert (found.kind, found.event.sender, found.other) == ("order", "base", Event("timer look"))
+    assert found.is_later
+    assert (found.affected, found.affected_time_s) == (Event("timer act"), 1.5)
+    assert names(found) == ({"found"}, {"nothing"})
+
+
 def test_runs_that_do_the_same(tmp_path: Path) -> None:
     scripted = Scripted(tmp_path, BEACONS + LISTENS)
     assert first_difference(scripted.recording("ideal"), scripted.recording("range")) is None
