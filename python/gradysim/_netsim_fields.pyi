@@ -240,7 +240,9 @@ class MediumFields:
     def typename(self) -> str: ...
     """Model of the air: path loss and noise, or a circle."""
     timing: str
-    """What takes time; instant: nothing; airtime: frames and their way at the speed of light;
+    """What takes time; mac: what the MAC of each interface does, not with UnitDiskRadioMedium. The
+    others have no MAC, for comparison (docs/explanation/realism-levels.md); instant: nothing; airtime:
+    frames and their way at the speed of light; aloha: the same, and frames that overlap are lost;
     channelAccess: waiting until the channel around the sender is free, too, so that frames never
     collide."""
     background_noise: str

@@ -49,12 +49,12 @@ FLAWS = (
         "LockStep",
         "drones[*] heard >= 54",
         "interference",
-        {"interference"},
+        {"airtime", "interference"},
         "synchronized",
         ("drones[*] heartbeat",),
     ),
-    Flaw("NoRetry", "drones[*] landed >= 1", "fading", {"interference", "fading"}),
-    Flaw("NoRetryTwo", "drones[*] landed >= 1", "fading", {"interference", "fading"}),
+    Flaw("NoRetry", "drones[*] landed >= 1", "fading", {"range", "radio", "fading"}),
+    Flaw("NoRetryTwo", "drones[*] landed >= 1", "fading", {"range", "radio", "fading"}),
     # The clash was not foreseen: the camera and the neighbor are hidden from each other, and in lock-step.
     Flaw(
         "Order",
@@ -66,21 +66,21 @@ FLAWS = (
     ),
     Flaw("Upload", "sink collected >= 150", "access", {"airtime", "access"}),
     Flaw("Timeout", "client answered >= 18", "airtime", {"airtime"}),
-    Flaw("Hidden", "sink share >= 0.9", "interference", {"interference"}, "hidden"),
+    Flaw("Hidden", "sink share >= 0.9", "interference", {"range", "airtime", "interference"}, "hidden"),
     Flaw("Clock", "drone news >= 54", "clocks", {"clocks"}),
-    Flaw("Edge", "drone corrections >= 45", "noise", {"interference", "noise"}),
-    Flaw("Wall", "drone corrections >= 45", "obstacles", {"interference", "obstacles"}),
-    Flaw("Overhead", "drone corrections >= 45", "antennas", {"interference", "antennas"}),
+    Flaw("Edge", "drone corrections >= 45", "noise", {"radio", "noise"}),
+    Flaw("Wall", "drone corrections >= 45", "obstacles", {"radio", "obstacles"}),
+    Flaw("Overhead", "drone corrections >= 45", "antennas", {"range", "radio", "antennas"}),
     Flaw(
         "Election",
         "followers[*] wrong == 0",
         "capture",
-        {"interference", "capture"},
+        {"airtime", "radio", "interference", "capture"},
         "synchronized",
         ("candidates[*] claim",),
     ),
     # All drones hear the poll at the same time, so their answers are as synchronized as timers.
-    Flaw("Poll", "base answers >= 342", "interference", {"interference"}, "synchronized"),
+    Flaw("Poll", "base answers >= 342", "interference", {"airtime", "interference"}, "synchronized"),
     Flaw("OneHop", "base reports >= 95", "range", {"range"}),
 )
 

@@ -37,9 +37,13 @@ constexpr Field fields[] = {
     {"typename", &member<&MediumConfig::type_name>, "typename", one_of(medium_type_names),
      "Model of the air: path loss and noise, or a circle", ReadBy{}},
     {NETSIM_FIELD(MediumConfig, timing), "timing", one_of(timing_names),
-     "what takes time; instant: nothing; airtime: frames and their way at the speed of light; channelAccess:"
-     " waiting until the channel around the sender is free, too, so that frames never collide",
-     with_unit_disk},
+     "What takes time; mac: what the MAC of each interface does, not with UnitDiskRadioMedium. The others "
+     "have no MAC,"
+     " for comparison (docs/explanation/realism-levels.md); instant: nothing; airtime: frames and their way "
+     "at the"
+     " speed of light; aloha: the same, and frames that overlap are lost; channelAccess: waiting until the "
+     "channel"
+     " around the sender is free, too, so that frames never collide"},
     {NETSIM_FIELD(MediumConfig, background_noise), "backgroundNoise.typename", one_of(background_noise_names),
      "Noise in a channel: one power for all, or that of the receiver's bandwidth"},
     {NETSIM_FIELD(MediumConfig, background_noise_w), "backgroundNoise.power", level(), "noise in the channel",
@@ -99,6 +103,9 @@ const Schema MediumConfig::schema{"medium", "radioMedium", false, fields, with_r
 
 MediumConfig::MediumConfig(std::string medium_type_name) : type_name(std::move(medium_type_name)) {
     check_name("medium.typename", type_name, medium_type_names);
+    if (type_name == unit_disk_medium) {
+        timing = instant_timing;
+    }
     if (type_name == ieee802154_scalar_medium) {
         path_loss = "BreakpointPathLoss";
         background_noise_w = 2.1797164411399055e-13;  // -96.616 dBm
@@ -114,6 +121,12 @@ double MediumConfig::coherence_time() const {
 
 void MediumConfig::validate() const {
     check_fields(*this);
+    if (type_name == unit_disk_medium && timing == mac_timing) {
+        throw ConfigError(
+            {"medium.timing",
+             "\"" + timing + "\"",
+             {"expected instant, airtime, aloha or channelAccess: " + type_name + " has no MAC"}});
+    }
     constexpr double shortest_s = 1e-6;
     const auto check_time = [](const char* field, double time_s) {
         if (time_s > 0 && time_s < shortest_s) {

@@ -23,12 +23,13 @@ inline constexpr std::string_view unit_disk_medium = "UnitDiskRadioMedium";
 
 inline constexpr std::array medium_type_names{ieee80211_scalar_medium, ieee802154_scalar_medium,
                                               unit_disk_medium};
-inline constexpr ReadBy with_unit_disk{"medium.typename", std::span(medium_type_names).last(1),
-                                       unit_disk_medium};
-// MediumConfig::timing of the unit disk: what takes time.
+// MediumConfig::timing: what takes time. With all but the first, mac/ideal_interface.hpp replaces the MAC.
+inline constexpr std::string_view mac_timing = "mac";
 inline constexpr std::string_view instant_timing = "instant";
+inline constexpr std::string_view aloha_timing = "aloha";
 inline constexpr std::string_view channel_access_timing = "channelAccess";
-inline constexpr std::array timing_names{instant_timing, std::string_view("airtime"), channel_access_timing};
+inline constexpr std::array timing_names{mac_timing, instant_timing, std::string_view("airtime"),
+                                         aloha_timing, channel_access_timing};
 // With other media, nothing reads the keys of radio, MAC and antenna.
 inline constexpr ReadBy with_radios{"medium.typename", std::span(medium_type_names).first(2), ""};
 // See path_loss.hpp, two_ray.hpp and fading.hpp. The last four are free space with random gains (Fading).
@@ -50,7 +51,7 @@ struct MediumConfig {
 
     std::string type_name;  // `typename` in Python
 
-    std::string timing = "instant";  // mac/unit_disk_interface.hpp
+    std::string timing{mac_timing};  // "instant" on the unit disk
 
     std::string path_loss = "FreeSpacePathLoss";
     double alpha = 2;

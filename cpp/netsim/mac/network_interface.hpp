@@ -1,6 +1,6 @@
 // The base class of network interfaces.
 //
-// There are three: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and UnitDiskInterface
+// There are three: Dcf (an 802.11 station), CsmaCa802154 (an 802.15.4 device) and IdealInterface
 // (a perfect channel).
 #pragma once
 

@@ -71,7 +71,10 @@ std::uint32_t Links::group_index(const ReceiverParameters& parameters) {
 }
 
 RadioId Links::addressee_of(const Transmission& sent) const {
-    const NodeId node = sent.label.destination;
+    return decoder_at(sent.label.destination, sent);
+}
+
+RadioId Links::decoder_at(NodeId node, const Transmission& sent) const {
     if (node < 0 || static_cast<std::size_t>(node) >= first_radio_.size()) {
         return -1;
     }

@@ -51,6 +51,8 @@ public:
     // The radio at the frame's destination that can decode it. -1 for a broadcast, or if there is no
     // such radio.
     RadioId addressee_of(const Transmission& sent) const;
+    // The radio of that node that can decode the frame; -1 if there is none.
+    RadioId decoder_at(NodeId node, const Transmission& sent) const;
 
     // Whether the radio takes part in cumulative energy detection (Medium::watch_energy).
     bool watches_energy(RadioId radio) const { return radios_[radio].watches_energy != 0; }

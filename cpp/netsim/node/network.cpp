@@ -24,9 +24,14 @@ MediumConfig validated(MediumConfig config) {
 
 Network::Network(const MediumConfig& medium, std::uint64_t seed, Culling culling)
     : seed_(seed),
-      perfect_channel_(validated(medium).type_name == unit_disk_medium),
-      timing_(medium.timing),
-      medium_(simulator_, medium, frame_fates_, fingerprint_, culling, seed) {}
+      timing_(validated(medium).timing),
+      is_ideal_(timing_ != mac_timing),
+      has_powers_(medium.type_name != unit_disk_medium),
+      medium_(simulator_, medium, frame_fates_, fingerprint_, culling, seed) {
+    if (is_ideal_ && has_powers_) {
+        ideal_channel_.links.emplace(medium, seed);
+    }
+}
 
 Node& Network::add_node(const NodeConfig& config) {
     if (initialized_) {
@@ -52,10 +57,15 @@ Node& Network::add_node(const NodeConfig& config) {
 
 std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig& config, InterfaceId id,
                                                           const Node& node) {
-    if (perfect_channel_) {
-        return std::make_unique<UnitDiskInterface>(
-            simulator_, unit_disk_, id, config.radio.communication_range_m, UnitDiskTiming(timing_, config),
-            node.trajectory(), frame_fates_, fingerprint_);
+    if (is_ideal_) {
+        std::optional<IdealRadio> radio;
+        if (has_powers_) {
+            radio.emplace(IdealRadio{radio_model(config.radio), config.radio.tx_power_w,
+                                     known_formats(config), node.attitude()});
+        }
+        return std::make_unique<IdealInterface>(
+            simulator_, ideal_channel_, id, config.radio.communication_range_m, std::move(radio),
+            IdealTiming(timing_, config), node.trajectory(), frame_fates_, fingerprint_, seed_);
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
     Radio& radio = radios_.emplace_back(id, radio_model(config.radio), config.radio.tx_power_w,
@@ -98,7 +108,7 @@ void Network::check_with_medium(const NodeConfig& config) {
 }
 
 void Network::check_with_others(const NodeConfig& config, std::size_t index) const {
-    if (perfect_channel_) {
+    if (!has_powers_) {
         return;  // one channel for all center frequencies
     }
     // Two radios on one channel would both receive each frame for the node, and acknowledge it at
@@ -118,9 +128,11 @@ void Network::check_with_others(const NodeConfig& config, std::size_t index) con
 
 void Network::check_with_medium(const std::string& node, const InterfaceConfig& config) {
     const RadioConfig& radio = config.radio;
-    if (perfect_channel_) {
+    if (is_ideal_) {
+        const IdealTiming checked(timing_, config);
+    }
+    if (!has_powers_) {
         check_greater("radio.communication_range_m", radio.communication_range_m, 0, "m");
-        const UnitDiskTiming checked(timing_, config);
         return;
     }
     const double noise_w = medium_.background_noise().power_w(radio.bandwidth_hz, radio.noise_figure);
@@ -134,7 +146,7 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
                                "radio.bandwidth_hz", "medium.background_noise", "interface.typename"}});
     }
     radio_model(radio);
-    if (config.type_name == ieee80211_interface) {
+    if (config.type_name == ieee80211_interface && !is_ideal_) {
         dcf_parameters(config.mac);
     }
     // 802.11 and 802.15.4 channels never have equal center frequencies, so this is a mistake.
@@ -168,12 +180,18 @@ Radio& Network::radio(InterfaceId id) {
 
 void Network::capture(NodeId node, const std::string& path, std::int32_t interface) {
     const std::string& name = this->node(node).name();
-    if (perfect_channel_) {
+    if (!has_powers_) {
         throw ConfigError(
             {.message = {"cannot capture the frames of " + name + ": ", FieldName{"medium.typename"},
                          " = \"" + std::string(unit_disk_medium) +
                              "\" has no radios; expected Ieee80211ScalarRadioMedium or another radio"
                              " medium"}});
+    }
+    if (is_ideal_) {
+        throw ConfigError(
+            {.message = {
+                 "cannot capture the frames of " + name + ": with ", FieldName{"medium.timing"},
+                 " = \"" + timing_ + "\" there is no MAC; expected \"" + std::string(mac_timing) + "\""}});
     }
     const std::size_t count = this->node(node).interfaces().size();
     if (interface < 0 || static_cast<std::size_t>(interface) >= count) {

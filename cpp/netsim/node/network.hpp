@@ -19,7 +19,7 @@
 #include "netsim/kernel/fingerprint.hpp"
 #include "netsim/kernel/simulator.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
-#include "netsim/mac/unit_disk_interface.hpp"
+#include "netsim/mac/ideal_interface.hpp"
 #include "netsim/medium/medium.hpp"
 #include "netsim/node/flight_clock.hpp"
 #include "netsim/node/network_context.hpp"
@@ -122,10 +122,11 @@ private:
     Fingerprint fingerprint_;
     NetworkContext context_{simulator_, fingerprint_};
     FrameFates frame_fates_;
-    bool perfect_channel_;
-    std::string timing_;  // MediumConfig::timing, for a perfect channel
+    std::string timing_;  // MediumConfig::timing
+    bool is_ideal_;       // whether interfaces are IdealInterfaces
+    bool has_powers_;     // whether the medium computes the power of frames
     Medium medium_;
-    UnitDiskChannel unit_disk_;
+    IdealChannel ideal_channel_;
     SharedModels<RadioConfig, RadioModel> radio_models_;
     SharedModels<MacConfig, DcfParameters> dcf_parameters_;
     std::deque<Radio> radios_;                       // sorted by interface id

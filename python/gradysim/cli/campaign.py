@@ -1,10 +1,11 @@
-"""What the commands about levels of realism share: the campaign, and the executor of its runs."""
+"""What the commands about levels of realism share: campaign, executor and output."""
 
+import json
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gradysim.cli.options import CampaignOptions
 
@@ -15,32 +16,64 @@ if TYPE_CHECKING:
     from gradysim.plots.numbers import Numbers
 
 
-def campaign_of(file: Path, options: CampaignOptions, run_count: int) -> "Campaign":
-    """Return the campaign of a command line. Raises ConfigError."""
-    from gradysim.ladder.campaign import Campaign
-    from gradysim.scenario.errors import ArgumentNames
-
-    return Campaign(
-        file,
-        options.config,
-        settings=options.settings,
-        run_count=run_count,
-        seed=options.seed,
-        names=ArgumentNames(overrides="--set", seed="--seed", runs="-n", config="-c"),
-    )
-
-
 @contextmanager
-def executor_of(options: CampaignOptions) -> "Iterator[Executor]":
-    """Yield an executor with a process for each run.
+def campaign_of(
+    file: Path, options: CampaignOptions, run_count: int
+) -> "Iterator[tuple[Campaign, Executor]]":
+    """Yield the campaign of a command line, and an executor with a process for each run.
 
-    No run has a result to keep, so the first Ctrl-C raises KeyboardInterrupt, and all processes are killed.
+    The first Ctrl-C, SIGTERM or SIGHUP kills all processes, and says what became of the runs that have ended.
+
+    Raises:
+        ConfigError: Anything is wrong with the file or the options.
+        OSError: The runs cannot be kept.
+        SystemExit: After a signal, with the exit code of the command.
     """
     from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.runner import ForkExecutor
+    from gradysim.ladder.campaign import Campaign
+    from gradysim.ladder.kept_runs import KeptRuns
+    from gradysim.scenario.errors import ArgumentNames, ConfigError
 
-    with ForkExecutor(options.jobs, StopOnInterrupt()) as executor:
-        yield executor
+    if options.resume and options.result_dir is None:
+        raise ConfigError("--resume: expected --result-dir DIR, too, where the runs are kept")
+    keeping = (
+        nullcontext()
+        if options.result_dir is None
+        else KeptRuns(options.result_dir, options.config, resume=options.resume)
+    )
+    with keeping as kept, StopOnInterrupt() as interrupt:
+        campaign = None
+        try:
+            with interrupt.at_once():
+                campaign = Campaign(
+                    file,
+                    options.config,
+                    settings=options.settings,
+                    run_count=run_count,
+                    seed=options.seed,
+                    names=ArgumentNames(overrides="--set", seed="--seed", runs="-n", config="-c"),
+                    kept=kept,
+                )
+                with ForkExecutor(options.jobs, interrupt) as executor:
+                    yield campaign, executor
+        except KeyboardInterrupt:
+            count = 0 if campaign is None else campaign.run_count
+            ended = f"stopped; {count} {'run has' if count == 1 else 'runs have'} ended"
+            where = (
+                f"and kept in {kept.path}: --resume finds them"
+                if kept
+                else "and lost: --result-dir DIR keeps them"
+            )
+            print(f"\n{ended} {where}", file=sys.stderr)
+            raise SystemExit(interrupt.exit_code) from None
+
+
+def print_json(plain: dict[str, Any]) -> None:
+    """Print a JSON object on one line."""
+    from gradysim.protocol.plain_value import plain_value
+
+    print(json.dumps(plain_value(plain)))
 
 
 def save(

@@ -29,16 +29,14 @@ def desynchronize_timers(
     options: CampaignOptions = DEFAULTS,
 ) -> int:
     """Find timers of nodes that send into each other, and the random delay (jitter) that they need."""
-    from gradysim.cli.campaign import campaign_of, executor_of, save
+    from gradysim.cli.campaign import campaign_of, save
     from gradysim.cli.console import console
-    from gradysim.ladder.campaign import FailedRunError
     from gradysim.ladder.desync import desynchronize
     from gradysim.ladder.desync_words import desync_sentences
     from gradysim.scenario.errors import ConfigError
 
     try:
-        campaign = campaign_of(file, options, run_count)
-        with executor_of(options) as executor:
+        with campaign_of(file, options, run_count) as (campaign, executor):
             found = desynchronize(campaign, executor, metric)
         if output is not None and found.trials:
             from gradysim.ladder.figures import jitter_numbers
@@ -47,8 +45,7 @@ def desynchronize_timers(
     except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
     except Exception as failure:
-        place = "" if isinstance(failure, FailedRunError) else f"{options.config} run 0: "
-        print(f"{place}{failure}", file=sys.stderr)
+        print(f"{options.config} run 0: {failure}", file=sys.stderr)
         return FAILED
     terminal = console()
     terminal.print(*desync_sentences(found), sep="\n", markup=False, highlight=False)

@@ -1,6 +1,7 @@
 """`gradysim ladder`: a metric at each level of realism, and its change from level to level."""
 
 import sys
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -35,17 +36,18 @@ def climb_ladder(
     output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
-    """Run a configuration with more and more effects of real radios, and print what each level changes."""
-    from gradysim.cli.campaign import campaign_of, executor_of, save
+    """Run a configuration with more and more effects of real radios, and print what each level changes.
+
+    A run that fails does not count in the means. The exit code is 1 then.
+    """
+    from gradysim.cli.campaign import campaign_of, print_json, save
     from gradysim.cli.console import console
-    from gradysim.ladder.campaign import FailedRunError
     from gradysim.ladder.ladder import climb
     from gradysim.scenario.errors import ConfigError
 
     try:
-        campaign = campaign_of(file, options, run_count)
-        chosen = levels_between(levels, [level.name for level in campaign.levels])
-        with executor_of(options) as executor:
+        with campaign_of(file, options, run_count) as (campaign, executor):
+            chosen = levels_between(levels, [level.name for level in campaign.levels])
             rungs = list(climb(campaign, metric, chosen, executor))
         if output is not None:
             from gradysim.ladder.figures import ladder_numbers
@@ -53,12 +55,38 @@ def climb_ladder(
             save(output, ladder_numbers(rungs, metric, len(campaign)), file, options)
     except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
-    except FailedRunError as failure:
-        print(failure, file=sys.stderr)
-        return FAILED
-    runs = "1 run" if len(campaign) == 1 else f"{len(campaign)} runs"
-    console().print(ladder_table(rungs, f"{metric}, {runs} of {campaign.config} at each level"))
-    return OK
+    if options.as_json:
+        print_json({"metric": metric, "runs": len(campaign), "levels": [rung_json(rung) for rung in rungs]})
+    else:
+        runs = "1 run" if len(campaign) == 1 else f"{len(campaign)} runs"
+        console().print(ladder_table(rungs, f"{metric}, {runs} of {campaign.config} at each level"))
+        _tell_first_failure(rungs, len(campaign))
+    return FAILED if any(rung.failures for rung in rungs) else OK
+
+
+def _tell_first_failure(rungs: "list[Rung]", run_count: int) -> None:
+    failed = [rung for rung in rungs if rung.failures]
+    if failed:
+        levels = ", ".join(
+            f"{rung.number} {rung.level.name} ({len(rung.failures)} of {run_count})" for rung in failed
+        )
+        place, failure = min(failed[0].failures.items())
+        print(
+            f"runs failed at level {levels}; level {failed[0].number}, run {place}: {failure}",
+            file=sys.stderr,
+        )
+
+
+def rung_json(rung: "Rung") -> dict[str, object]:
+    """Return a level for other programs."""
+    return {
+        "level": rung.level.name,
+        "metric": None if rung.metric is None else asdict(rung.metric),
+        "change": None if rung.change is None else asdict(rung.change),
+        "loss": rung.loss,
+        "loss_ratio": rung.loss_ratio,
+        "exceptions": [{"run": place} | asdict(each) for place, each in sorted(rung.failures.items())],
+    }
 
 
 def levels_between(text: str | None, names: list[str]) -> range:
@@ -122,9 +150,11 @@ def ladder_table(rungs: "list[Rung]", title: str) -> "Table":
     return table
 
 
-def text_of(estimate: "Estimate", sign: str = "") -> str:
-    """Return `12.3 ± 0.4`, with four significant digits, or `0.9 [0.56, 1]`."""
+def text_of(estimate: "Estimate | None", sign: str = "") -> str:
+    """Return `12.3 ± 0.4`, with four significant digits, or `0.9 [0.56, 1]`; "failed" without a number."""
     from gradysim.cli.console import interval_text
 
+    if estimate is None:
+        return "failed"
     interval = interval_text(estimate.mean, estimate.low, estimate.high, ".2g", "± ")
     return " ".join(filter(None, [f"{estimate.mean:{sign}.4g}", interval]))

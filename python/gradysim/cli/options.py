@@ -316,6 +316,16 @@ class CampaignOptions:
     jobs: Annotated[Integer, Parameter(alias="-j")] = os.cpu_count() or 1
     """Number of runs at the same time; by default one for each core."""
 
+    result_dir: Path | None = None
+    """Keep what each run shows in DIR/CONFIG.runs.jsonl."""
+
+    resume: Flag = False
+    """Use the runs that are kept in --result-dir if they have the same settings, seed and files. They may be
+    those of another command about levels."""
+
+    as_json: Annotated[Flag, Parameter(name="--json")] = False
+    """Print only a JSON object, on one line."""
+
 
 def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
     """Return the value of an option. Raises ConfigError, which names the option."""

@@ -1,27 +1,62 @@
 """Bisection: the lowest level at which a protocol fails, and the smallest set of effects that makes it fail.
 
-The two ends are calibrated first. Each level between them gets a sequential test: does the protocol work as
-at the ideal end, or as at the real one? The result is confirmed by pairs of runs of the two levels on common
-seeds.
+1. Each level gets ten runs, all with the same seeds. So a flaw shows that a higher level hides again.
+2. If all of them hold, the rest of the budget searches for a rare failure, half of it at the last level.
+3. Otherwise two neighboring levels get pairs of runs on common seeds, where the pairs so far speak most. A
+   level fails if the evidence exceeds a bound that all pairs of levels share. So the error rate holds,
+   however often the pairs are looked at, and however many levels there are.
+4. Effects are left out one by one, as long as the protocol still fails.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
+from itertools import cycle
+from typing import Protocol
 
 from gradysim.ladder.assertion import Assertion
-from gradysim.ladder.campaign import Campaign, Effects
-from gradysim.ladder.sequential import SequentialTest, probability_of_pairs
+from gradysim.ladder.failure import Failure
+from gradysim.ladder.jitter import Jitter
+from gradysim.ladder.levels import Level
+from gradysim.ladder.observation import Observation
+from gradysim.ladder.sequential import SequentialTest, evidence_of_pairs
+from gradysim.results.confidence_interval import ratio_bounds
 from gradysim.scenario.errors import ConfigError
 
-_AT_ENDS = 10
-"""Runs that calibrate each end."""
+Effects = frozenset[str]
+
+_AT_EACH_LEVEL = 10
+"""Runs that each level gets first."""
 
 _AT_ONCE = 4
 """Runs that are submitted before their results are looked at."""
 
-_LEAST_DIFFERENCE = 0.3
-"""Least difference of the ratios at the two ends. Smaller ones take too many runs to be located."""
+
+class Runs(Protocol):
+    """What a bisection needs of a campaign."""
+
+    @property
+    def levels(self) -> Sequence[Level]:
+        """The levels of the ladder, the most ideal one first."""
+
+    def __len__(self) -> int:
+        """Return the number of runs that each set of effects can have."""
+
+    def effects_up_to(self, level: int) -> Effects:
+        """Return the effects of the levels 0 to `level`."""
+
+    def working(self, effects: Effects) -> Effects:
+        """Return those of these effects that have what they need."""
+
+    def observations(
+        self,
+        executor: Executor | None,
+        effects: Effects,
+        places: Sequence[int],
+        quantities: Sequence[str],
+        jitter: Jitter | None = None,
+    ) -> Iterator[Observation]:
+        """Submit runs, and return an iterator that waits for what they show."""
 
 
 class _OutOfRunsError(Exception):
@@ -33,20 +68,42 @@ class Tally:
     """Runs with one set of effects. A run that fails with an exception does not satisfy the assertion.
 
     Attributes:
-        outcomes: Whether the assertion holds, by the position of the run.
-        exceptions: Those of the runs that fail with one.
+        outcomes: Whether the assertion holds, for the runs 0, 1, 2, …
+        searched: The same for runs that searched for a rare failure: {position of the run: outcome}.
+        failures: Why runs failed: {position of the run: its exception}.
     """
 
     outcomes: list[bool] = field(default_factory=list)
-    exceptions: list[str] = field(default_factory=list)
+    searched: dict[int, bool] = field(default_factory=dict)
+    failures: dict[int, Failure] = field(default_factory=dict)
+
+    @property
+    def run_count(self) -> int:
+        """Number of runs."""
+        return len(self.outcomes) + len(self.searched)
+
+    @property
+    def held(self) -> int:
+        """Number of runs in which the assertion holds."""
+        return sum(self.outcomes) + sum(self.searched.values())
 
     @property
     def ratio(self) -> float:
         """Ratio of runs in which the assertion holds; 0 without runs."""
-        return sum(self.outcomes) / len(self.outcomes) if self.outcomes else 0.0
+        return self.held / self.run_count if self.run_count else 0.0
+
+    @property
+    def failed_run(self) -> int | None:
+        """Position of the first run in which the assertion does not hold."""
+        failed = [place for place, holds in enumerate(self.outcomes) if not holds]
+        return min([*failed, *(place for place, holds in self.searched.items() if not holds)], default=None)
+
+    def most_failures(self, confidence: float) -> float:
+        """Return the largest ratio of failing runs that fits to these, with that confidence."""
+        return 1 - ratio_bounds(self.held, self.run_count, 1 - confidence)[0] if self.run_count else 1.0
 
     def __str__(self) -> str:
-        return f"{sum(self.outcomes)} of {len(self.outcomes)} runs"
+        return f"{self.held} of {self.run_count} runs"
 
 
 @dataclass(frozen=True)
@@ -54,9 +111,11 @@ class Verdict:
     """Result of a bisection.
 
     Attributes:
-        works: The highest level at which the protocol works; None if it fails at all levels.
-        fails: The lowest level at which it fails; None if it works at all levels.
-        is_sure: Whether the two levels are next to each other, and pairs of runs confirm the difference.
+        works: The level below the one at which it fails; None if it fails at level 0, the last level if it
+            works at all levels.
+        fails: The lowest level at which it fails; None if all runs at all levels hold.
+        is_sure: Whether pairs of runs show that these two levels differ. True if it works at all levels or
+            fails at level 0.
         smallest: The smallest set of effects that makes it fail, in the order of levels; empty if unknown.
         place: Position of a run that works at the one level and fails at the other, if there is one.
         run_count: Runs that it took.
@@ -75,132 +134,210 @@ class Bisection:
 
     Attributes:
         campaign: The configuration.
-        confidence: Probability that the level is the right one.
+        assertion: What the protocol has to achieve.
+        confidence: Probability that a level that is named is the right one.
     """
 
     def __init__(
         self,
-        campaign: Campaign,
+        campaign: Runs,
         assertion: Assertion,
         executor: Executor | None = None,
         *,
-        confidence: float = 0.99,
+        confidence: float = 0.95,
         max_runs: int = 400,
     ) -> None:
         """Prepare.
 
         Args:
-            campaign: The configuration. It needs as many runs as one level may take: 100 are enough.
+            campaign: The configuration. It needs as many runs as the budget.
             assertion: What the protocol has to achieve.
             executor: Executes the runs, see `Campaign.observations`.
-            confidence: Probability that the level is the right one, > 0.5 and < 1.
-            max_runs: Budget of runs, at least 20.
+            confidence: Probability that a level that is named is the right one, > 0.5 and < 1.
+            max_runs: Budget of runs, one for each level at least.
 
         Raises:
             ConfigError: The budget is too small.
         """
-        if max_runs < 2 * _AT_ENDS:
+        if max_runs < len(campaign.levels):
             raise ConfigError(
                 f"a budget of {max_runs} runs is too small",
-                expected=f"at least {2 * _AT_ENDS}: {_AT_ENDS} at each end of the ladder",
+                expected=f"at least {len(campaign.levels)}, one at each level; ten at each are better",
             )
-        self.campaign, self.confidence = campaign, confidence
-        self._assertion, self._executor, self._max_runs = assertion, executor, max_runs
+        self.campaign, self.assertion, self.confidence = campaign, assertion, confidence
+        self._executor, self._max_runs = executor, max_runs
         self._tallies: dict[Effects, Tally] = {}
-        self._high, self._low = 1.0, 0.0
 
     @property
     def run_count(self) -> int:
         """Number of runs so far."""
-        return sum(len(tally.outcomes) for tally in self._tallies.values())
+        return sum(tally.run_count for tally in self._tallies.values())
 
     def at_level(self, number: int) -> Tally:
         """Return the runs of a level."""
         return self.with_effects(self.campaign.effects_up_to(number))
 
     def with_effects(self, effects: Effects) -> Tally:
-        """Return the runs with a set of effects."""
-        return self._tallies.setdefault(effects, Tally())
+        """Return the runs with a set of effects. Those that lack what they need have no part in it."""
+        return self._tallies.setdefault(self.campaign.working(effects), Tally())
 
     def find(self) -> Verdict:
-        """Return the level at which the protocol breaks. Raises what its runs raise."""
-        top = len(self.campaign.levels) - 1
-        self._run(self._effects(0), _AT_ENDS)
-        self._run(self._effects(top), _AT_ENDS)
-        self._high, self._low = self.at_level(0).ratio, self.at_level(top).ratio
-        if self._high < 0.5:
-            return Verdict(None, 0, True, run_count=self.run_count)
-        if self._low == 1 or self._low >= self._high:
-            return Verdict(top, None, True, run_count=self.run_count)
-        if self._high - self._low < _LEAST_DIFFERENCE:
-            return Verdict(0, top, False, (), self._run_that_differs(0, top), self.run_count)
-        works, fails = 0, top
+        """Return the level at which the protocol breaks. Raises ConfigError for an unknown quantity."""
+        levels = range(len(self.campaign.levels))
+        first = min(_AT_EACH_LEVEL, self._max_runs // len(levels))
+        self._run_all([(self._effects(level), range(first)) for level in levels])
+        if self.at_level(0).ratio < 0.5:
+            return Verdict(None, 0, True, (), self.at_level(0).failed_run, self.run_count)
         try:
-            while fails - works > 1:
-                middle = (works + fails) // 2
-                if self._works(self._effects(middle)):
-                    works = middle
-                else:
-                    fails = middle
-            is_sure = self._confirm(works, fails)
+            if all(self.at_level(level).failed_run is None for level in levels):
+                self._search()
+            fails = self._confirmed()
         except _OutOfRunsError:
-            return Verdict(works, fails, False, (), self._run_that_differs(works, fails), self.run_count)
+            if all(self.at_level(level).failed_run is None for level in levels):
+                return Verdict(levels[-1], None, True, run_count=self.run_count)
+            fails = self._suspect()
+            return Verdict(fails - 1, fails, False, (), self._run_that_differs(fails), self.run_count)
         smallest = self._smallest(fails)
-        return Verdict(works, fails, is_sure, smallest, self._run_that_differs(works, fails), self.run_count)
+        return Verdict(fails - 1, fails, True, smallest, self._run_that_differs(fails), self.run_count)
 
     def _effects(self, level: int) -> Effects:
         return self.campaign.effects_up_to(level)
 
-    def _works(self, effects: Effects) -> bool:
-        """Return whether the protocol works with these effects as at the ideal end, by a sequential test."""
-        test = SequentialTest(self._high, self._low, (1 - self.confidence) / 5)
-        tally = self.with_effects(effects)
-        test.add(tally.outcomes)
-        while test.works is None:
-            known = len(tally.outcomes)
-            self._run(effects, known + _AT_ONCE)
-            test.add(tally.outcomes[known:])
-        return test.works
+    def _search(self) -> None:
+        """Run levels until one run fails, with other seeds than the first ones, and that seed at all levels.
 
-    def _confirm(self, works: int, fails: int) -> bool:
-        """Return whether pairs of runs on common seeds show that the two levels differ."""
-        high, low = self._effects(works), self._effects(fails)
-        count = max(len(self.with_effects(each).outcomes) for each in (high, low))
+        Every second run is at the last level, since most flaws show there. The pairs that confirm a level
+        leave these runs out: a seed that was chosen for its failure would count for that level.
+        """
+        top = len(self.campaign.levels) - 1
+        place = len(self.campaign) - 1
+        for level in cycle(range(1, top)) if top > 1 else cycle([top]):
+            places = range(place, place - _AT_ONCE, -1)
+            place -= _AT_ONCE
+            self._run_searching([(top, places), (level, places)] if level != top else [(top, places)])
+            failed = self._failed_in_search()
+            if failed is not None:
+                self._run_searching([(each, [failed]) for each in range(top + 1)])
+                return
+
+    def _failed_in_search(self) -> int | None:
+        for level in range(len(self.campaign.levels)):
+            for place, holds in self.at_level(level).searched.items():
+                if not holds:
+                    return place
+        return None
+
+    def _confirmed(self) -> int:
+        """Return the lowest level that is shown to fail. Runs pairs of the most suspect one until one is."""
+        bound = (len(self.campaign.levels) - 1) / (1 - self.confidence)
         while True:
-            self._run(high, count)
-            self._run(low, count)
-            pairs = list(zip(self.with_effects(high).outcomes, self.with_effects(low).outcomes, strict=False))
-            better, worse = pairs.count((True, False)), pairs.count((False, True))
-            if probability_of_pairs(better, worse) < 1 - self.confidence:
-                return True
-            count += _AT_ONCE
+            for level in range(1, len(self.campaign.levels)):
+                if evidence_of_pairs(*self._pairs(level)) >= bound:
+                    return level
+            suspect = self._suspect()
+            count = min(len(self.at_level(level).outcomes) for level in (suspect - 1, suspect)) + _AT_ONCE
+            self._run_all([(self._effects(level), range(count)) for level in (suspect - 1, suspect)])
+
+    def _pairs(self, level: int) -> tuple[int, int]:
+        """Return the runs that hold below a level only, and those that hold at it only, of common seeds."""
+        pairs = list(zip(self.at_level(level - 1).outcomes, self.at_level(level).outcomes, strict=False))
+        return pairs.count((True, False)), pairs.count((False, True))
+
+    def _suspect(self) -> int:
+        """Return the level for whose failure the pairs speak most; without pairs, the one that fails most."""
+
+        def suspicion(level: int) -> tuple[float, float, float, int]:
+            below, here = self.at_level(level - 1), self.at_level(level)
+            found = any(
+                holds and not here.searched.get(place, True) for place, holds in below.searched.items()
+            )
+            return evidence_of_pairs(*self._pairs(level)), found, below.ratio - here.ratio, -level
+
+        return max(range(1, len(self.campaign.levels)), key=suspicion)
 
     def _smallest(self, fails: int) -> tuple[str, ...]:
-        """Return a set of effects that makes the protocol fail, none of which can be left out.
+        """Return a set of effects that makes the protocol fail, each of which it needs.
 
-        Effects are few, so each is tried alone. Source of the method: A. Zeller and R. Hildebrandt,
-        "Simplifying and isolating failure-inducing input", IEEE Trans. on Software Engineering 28, 2002.
+        Effects are few, so each is tried alone. Channel access comes last: without it nodes send whatever
+        others do, so that more frames collide, and a flaw of hidden nodes would not need their range.
+
+        Source of the method: A. Zeller and R. Hildebrandt, "Simplifying and isolating failure-inducing
+        input", IEEE Trans. on Software Engineering 28, 2002.
         """
-        needed = self._effects(fails)
+        needed = self.campaign.working(self._effects(fails))
+        high, low = self.at_level(fails - 1).ratio, self.at_level(fails).ratio
         try:
-            for level in reversed(self.campaign.levels[1 : fails + 1]):
-                if not self._works(needed - {level.name}):
-                    needed -= {level.name}
+            levels = reversed(self.campaign.levels[1 : fails + 1])
+            for level in sorted(levels, key=lambda level: level.name == "access"):
+                without = self.campaign.working(needed - {level.name})
+                if level.name in needed and not self._works(without, high, low):
+                    needed = without
         except _OutOfRunsError:
             return ()
         return tuple(level.name for level in self.campaign.levels[1:] if level.name in needed)
 
-    def _run_that_differs(self, works: int, fails: int) -> int | None:
-        outcomes = zip(self.at_level(works).outcomes, self.at_level(fails).outcomes, strict=False)
-        return next((place for place, (one, other) in enumerate(outcomes) if one and not other), None)
-
-    def _run(self, effects: Effects, count: int) -> None:
-        """Execute the first `count` runs with these effects, unless that has been done."""
+    def _works(self, effects: Effects, high: float, low: float) -> bool:
+        """Return whether the protocol works in `high` of the runs with these effects, and not in `low`."""
+        test = SequentialTest(high, low, (1 - self.confidence) / len(self.campaign.levels))
         tally = self.with_effects(effects)
-        missing: Sequence[int] = range(len(tally.outcomes), count)
-        if count > len(self.campaign) or self.run_count + len(missing) > self._max_runs:
+        test.add(tally.outcomes)
+        while test.works is None:
+            known = len(tally.outcomes)
+            self._run_all([(effects, range(known + _AT_ONCE))])
+            test.add(tally.outcomes[known:])
+        return test.works
+
+    def _run_that_differs(self, fails: int) -> int | None:
+        """Return a run that works below a level and not at it."""
+        below, here = self.at_level(fails - 1), self.at_level(fails)
+        pairs = enumerate(zip(below.outcomes, here.outcomes, strict=False))
+        in_search = (
+            (place, (holds, here.searched.get(place, True))) for place, holds in below.searched.items()
+        )
+        return next((place for place, (one, other) in [*pairs, *in_search] if one and not other), None)
+
+    def _run_all(self, wanted: Sequence[tuple[Effects, range]]) -> None:
+        """Execute the runs with these effects that have not been done, up to the end of each range."""
+        missing = [
+            (effects, range(len(self.with_effects(effects).outcomes), places.stop))
+            for effects, places in wanted
+        ]
+        self._check_budget([places for _, places in missing])
+        for effects, places, seen in self._submitted(missing):
+            tally = self.with_effects(effects)
+            for place, each in zip(places, seen, strict=True):
+                tally.outcomes.append(self._holds(tally, place, each))
+
+    def _run_searching(self, wanted: Sequence[tuple[int, Sequence[int]]]) -> None:
+        """Execute these runs at these levels, unless that has been done."""
+        missing = [
+            (self._effects(level), [place for place in places if place not in self.at_level(level).searched])
+            for level, places in wanted
+        ]
+        self._check_budget([places for _, places in missing])
+        for effects, places, seen in self._submitted(missing):
+            tally = self.with_effects(effects)
+            for place, each in zip(places, seen, strict=True):
+                tally.searched[place] = self._holds(tally, place, each)
+
+    def _check_budget(self, missing: Sequence[Sequence[int]]) -> None:
+        if self.run_count + sum(map(len, missing)) > self._max_runs:
             raise _OutOfRunsError
-        metric = self._assertion.metric
-        for seen in self.campaign.observations(self._executor, effects, missing, metric):
-            tally.outcomes.append(seen.value is not None and self._assertion.holds(seen.value))
-            tally.exceptions += [seen.failure] if seen.failure else []
+
+    def _submitted(
+        self, wanted: Sequence[tuple[Effects, Sequence[int]]]
+    ) -> Iterator[tuple[Effects, Sequence[int], Iterator[Observation]]]:
+        """Submit all of these runs, and yield what they show."""
+        quantities = self.assertion.quantities
+        submitted = [
+            self.campaign.observations(self._executor, effects, places, quantities)
+            for effects, places in wanted
+        ]
+        for (effects, places), seen in zip(wanted, submitted, strict=True):
+            yield effects, places, seen
+
+    def _holds(self, tally: Tally, place: int, seen: Observation) -> bool:
+        if seen.failure is not None:
+            tally.failures[place] = seen.failure
+            return False
+        return self.assertion.holds(seen.numbers)

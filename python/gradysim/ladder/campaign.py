@@ -2,18 +2,20 @@
 
 import contextlib
 import io
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
+from typing import Any
 
 import gradysim.integrated.run  # noqa: F401 (before processes are forked)
+from gradysim.ladder.failure import Failure
 from gradysim.ladder.jitter import Jitter
-from gradysim.ladder.levels import LEVELS, Level, added_sections, levels_of, settings_without
+from gradysim.ladder.kept_runs import KeptRuns
+from gradysim.ladder.levels import LEVELS, Level, added_sections, levels_of, settings_of, working
+from gradysim.ladder.observation import Observation, losses_of, messages_of
 from gradysim.ladder.reach import power_settings, range_settings
 from gradysim.replay.sink import ReplayWriter
-from gradysim.results.outcomes import Outcomes
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, nearest
 from gradysim.scenario.ini import read_ini
@@ -24,39 +26,10 @@ from gradysim.stepping import start
 Effects = frozenset[str]
 """Names of the levels whose effects a run has."""
 
-_FIRST_WITH_RADIOS = "interference"
-_NOT_LOST = {"delivered", "below_sensitivity", "in_air"}
-"""Outcomes of receptions that are not losses, or that are out of range."""
+_LAST_WITHOUT_NOISE = "interference"
 
-LOST_MESSAGES = ("queue_overflow", "retry_limit", "channel_access_failure")
-"""Outcomes of messages that their sender gave up."""
-
-
-class FailedRunError(Exception):
-    """A run failed: a protocol raised an exception."""
-
-
-@dataclass(frozen=True)
-class Observation:
-    """What one run showed.
-
-    Attributes:
-        value: The metric; None if the run failed.
-        losses: {outcome: receptions lost} of frames at their addressees.
-        receptions: Receptions within the range.
-        messages: {outcome: messages}.
-        failure: Why the run failed: the exception of a protocol, or the end of its process.
-        quantities: Names of all quantities of the run.
-        binary: Whether the metric is 0 or 1, see `RunSummary.is_binary`.
-    """
-
-    value: float | None
-    losses: Mapping[str, int] = field(default_factory=dict)
-    receptions: int = 0
-    messages: Mapping[str, int] = field(default_factory=dict)
-    failure: str = ""
-    quantities: tuple[str, ...] = ()
-    binary: bool = False
+_MOST_NUMBERS = 500
+"""Of a run that are passed between processes and kept: what a process returns has to fit into a pipe."""
 
 
 class Campaign:
@@ -65,6 +38,8 @@ class Campaign:
     Attributes:
         levels: The levels of the ladder that the scenario has.
         config: Name of the configuration.
+        run_count: Runs that were executed.
+        kept_count: Runs that were found among those that are kept.
     """
 
     def __init__(
@@ -76,6 +51,7 @@ class Campaign:
         run_count: int | None = None,
         seed: int | None = None,
         names: ArgumentNames = OF_SCRIPT,
+        kept: KeptRuns | None = None,
     ) -> None:
         """Read the configuration.
 
@@ -86,6 +62,7 @@ class Campaign:
             run_count: Repetitions of each combination of values; None for the `repeat` of the file.
             seed: Seed of run 0; run N adds N. None for the seed-set of the file.
             names: Names of these arguments in messages.
+            kept: Where runs are kept, and found; None to keep none.
 
         Raises:
             ConfigError: Anything is wrong with the file or the settings.
@@ -93,7 +70,9 @@ class Campaign:
         self._file, self.config, self._seed, self._names = Path(file), config, seed, names
         self._settings = [*([] if run_count is None else [f"repeat={run_count}"]), *settings]
         self._studies: dict[object, Study] = {}
+        self._kept = kept
         self._quantities: set[str] = set()
+        self.run_count = self.kept_count = 0
         self._fixed: dict[tuple[int, int], tuple[list[str], list[str], Scenario]] = {}
         self._full = self._study((), ())
         self.levels: tuple[Level, ...] = levels_of(self._full[0], read_ini(self._file).levels)
@@ -111,10 +90,14 @@ class Campaign:
         """The effects of all levels."""
         return self.effects_up_to(len(self.levels) - 1)
 
+    def working(self, effects: Effects) -> Effects:
+        """Return those of these effects that have what they need: collisions need airtime."""
+        return working(effects, self.levels)
+
     def scenario(self, effects: Effects, place: int) -> Scenario:
         """Return the scenario of the run at position `place` with these effects. Raises ConfigError."""
         powers, ranges = self._fixed_settings(place)
-        left_out = settings_without(self.all_effects - effects, self.levels)
+        left_out = settings_of(effects, self.levels)
         return self._study([*powers, *left_out, *ranges], added_sections(effects, self.levels))[place]
 
     def observations(
@@ -122,74 +105,115 @@ class Campaign:
         executor: Executor | None,
         effects: Effects,
         places: Iterable[int],
-        metric: str,
+        quantities: Collection[str] = (),
         jitter: Jitter | None = None,
     ) -> Iterator[Observation]:
         """Submit runs with these effects, and return an iterator that waits for what they show.
 
         Processes that the executor forks have the scenarios loaded. Calls that are passed to the executor
-        cannot be pickled. Without an executor, they are executed in this process. Raises ConfigError if the
-        runs have no such metric.
+        cannot be pickled. Without an executor, they are executed in this process.
+
+        Args:
+            executor: Executes the runs.
+            effects: Names of levels.
+            places: Positions of the runs.
+            quantities: Names that the runs must have.
+            jitter: A delay of timers.
+
+        Raises:
+            ConfigError: No run has a quantity of that name.
         """
         futures: list[Future[Observation]] = []
         for place in places:
-            self.scenario(effects, place)
-            if executor is not None:
-                futures.append(executor.submit(self.observe, effects, place, metric, jitter))
+            scenario = self.scenario(effects, place)
+            seen = None if self._kept is None else self._kept.find(scenario, jitter, quantities)
+            if seen is None and executor is not None:
+                futures.append(executor.submit(self.observe, effects, place, jitter, quantities))
             else:
                 futures.append(Future())
-                futures[-1].set_result(self.observe(effects, place, metric, jitter))
-        return self._results(futures, metric)
+                futures[-1].set_result(seen or self.observe(effects, place, jitter, quantities))
+            if seen is None:
+                futures[-1].add_done_callback(partial(self._done, scenario, jitter))
+            else:
+                self.kept_count += 1
+        return self._results(futures, quantities)
 
-    def _results(self, futures: Sequence[Future[Observation]], metric: str) -> Iterator[Observation]:
+    def _done(self, scenario: Scenario, jitter: Jitter | None, future: Future[Observation]) -> None:
+        """Keep what a run showed, as soon as it has ended."""
+        if future.cancelled() or future.exception() is not None:
+            return
+        self.run_count += 1
+        if self._kept is not None:
+            self._kept.add(scenario, jitter, future.result())
+
+    def _results(
+        self, futures: Sequence[Future[Observation]], quantities: Collection[str]
+    ) -> Iterator[Observation]:
+        known = self._quantities
         for future in futures:
             try:
                 seen = future.result()
             except Exception as failure:  # the process was killed
-                seen = Observation(None, failure=str(failure))
-            self._quantities.update(seen.quantities)
-            if seen.quantities and metric not in self._quantities:
+                seen = Observation(failure=Failure.of(failure))
+            known.update(seen.numbers)
+            unknown = next((name for name in quantities if name not in known), None)
+            if seen.numbers and unknown is not None:
                 raise ConfigError(
-                    f"no quantity is called `{metric}`",
-                    expected=f"one of {', '.join(f'`{name}`' for name in sorted(self._quantities))}",
-                    suggestion=nearest(metric, self._quantities),
+                    f"no quantity is called `{unknown}`",
+                    expected=f"one of {', '.join(f'`{name}`' for name in sorted(known))}",
+                    suggestion=nearest(unknown, known),
                 )
             yield seen
 
-    def record(self, effects: Effects, place: int, path: Path) -> Mapping[str, int]:
-        """Write the replay of the run at a position with these effects, and return {outcome: messages}.
+    def record(self, effects: Effects, place: int, path: Path) -> Observation:
+        """Write the replay of the run at a position with these effects, and return what it showed.
 
-        Raises what protocols raise.
+        If the run fails, the replay ends there. Raises OSError.
         """
-        recorder = ReplayWriter(path)
-        with (
-            contextlib.redirect_stdout(io.StringIO()),
-            start(self.scenario(effects, place), replay=recorder) as run,
-        ):
-            run.run_until()
-        return _messages(run.result().fates)
+        return self.observe(effects, place, replay=path)
 
-    def observe(self, effects: Effects, place: int, metric: str, jitter: Jitter | None = None) -> Observation:
+    def observe(
+        self,
+        effects: Effects,
+        place: int,
+        jitter: Jitter | None = None,
+        quantities: Collection[str] = (),
+        *,
+        replay: Path | None = None,
+    ) -> Observation:
         """Run the scenario at a position with these effects, and return what it showed.
 
-        What protocols print is discarded. A quantity that the run does not have counts as 0, such as a
-        tracked variable that no node has set.
+        What protocols print is discarded. With `replay`, the replay of the run is written there; otherwise
+        the run is faster.
         """
         scenario = self.scenario(effects, place)
+        failure = run = None
+        options: dict[str, Any] = {} if replay is None else {"replay": ReplayWriter(replay)}
         try:
-            with contextlib.redirect_stdout(io.StringIO()), start(scenario) as run:
+            with contextlib.redirect_stdout(io.StringIO()), start(scenario, **options) as run:
                 if jitter is not None:
                     jitter.add_to(run, scenario)
                 run.run_until()
-        except Exception as failure:
-            return Observation(None, failure=f"{type(failure).__name__}: {failure}")
+        except OSError as error:
+            if replay is not None and error.filename == str(replay):
+                raise
+            failure = Failure.of(error)
+        except Exception as error:
+            failure = Failure.of(error)
+        if run is None:
+            return Observation(failure=failure)
         result = run.result()
+        losses, receptions = losses_of(result.fates)
+        messages = messages_of(result.fates)
+        if failure is not None:
+            return Observation({}, losses, receptions, messages, failure)
         summary = RunSummary.of(result.to_json_object())
-        losses, receptions = _losses(result.fates)
-        messages = _messages(result.fates)
-        value = summary.numbers.get(metric, 0.0)
-        quantities, binary = summary.conditions.quantities, summary.is_binary(metric)
-        return Observation(value, losses, receptions, messages, quantities=quantities, binary=binary)
+        numbers = summary.numbers
+        has_all = len(numbers) <= _MOST_NUMBERS
+        if not has_all:
+            numbers = {name: numbers[name] for name in quantities if name in numbers}
+        binary = tuple(filter(summary.is_binary, numbers))
+        return Observation(numbers, losses, receptions, messages, binary=binary, has_all=has_all)
 
     def _study(self, settings: Sequence[str], levels: Collection[str]) -> Study:
         key = (*settings, *levels)
@@ -213,31 +237,8 @@ class Campaign:
             powers = power_settings(scenario)
             ranges: list[str] = []
             if powers:
-                at = next(i for i, level in enumerate(LEVELS) if level.name == _FIRST_WITH_RADIOS)
-                noiseless = settings_without([level.name for level in LEVELS[at + 1 :]], self.levels)
+                names = [level.name for level in LEVELS]
+                noiseless = settings_of(names[: names.index(_LAST_WITHOUT_NOISE) + 1], self.levels)
                 ranges = range_settings(self._study([*powers, *noiseless], ())[place])
             self._fixed[key] = (powers, ranges, scenario)  # the scenario keeps the ids from being used again
         return self._fixed[key][:2]
-
-
-def _losses(outcomes: Outcomes) -> tuple[dict[str, int], int]:
-    """Return the lost receptions by outcome, and the number of receptions within the range."""
-    losses: dict[str, int] = {}
-    receptions = 0
-    for kind, counts in outcomes["frames"].items():
-        if kind.endswith("overheard"):
-            continue
-        receptions += sum(counts.values()) - counts.get("below_sensitivity", 0)
-        for outcome, count in counts.items():
-            if outcome not in _NOT_LOST and count:
-                losses[outcome] = losses.get(outcome, 0) + count
-    return losses, receptions
-
-
-def _messages(outcomes: Outcomes) -> dict[str, int]:
-    """Return the number of messages by outcome, of all kinds."""
-    messages: dict[str, int] = {}
-    for counts in outcomes["messages"].values():
-        for outcome, count in counts.items():
-            messages[outcome] = messages.get(outcome, 0) + count
-    return messages

@@ -8,13 +8,11 @@ from functools import partial
 from pathlib import Path
 
 from gradysim.integrated.native_protocols import is_native
-from gradysim.ladder.campaign import Campaign, FailedRunError, Observation
+from gradysim.ladder.campaign import Campaign
 from gradysim.ladder.clashes import Diagnosis, Pattern, diagnose
 from gradysim.ladder.jitter import Jitter
+from gradysim.ladder.observation import Observation
 from gradysim.replay.reader import read_replay
-
-_ANY_METRIC = "events"
-"""A quantity that all runs have."""
 
 _SUFFICIENT = 0.01
 """Distance to the best delivery ratio that is good enough."""
@@ -74,7 +72,7 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
 
     Raises:
         ConfigError: The runs have no such metric.
-        FailedRunError: A run with jitter failed.
+        RuntimeError: A run with jitter failed.
         Exception: What protocols raise in the first run.
     """
     with tempfile.TemporaryDirectory() as folder:
@@ -105,7 +103,7 @@ def desynchronize(campaign: Campaign, executor: Executor | None = None, metric: 
             executor,
             campaign.all_effects,
             range(len(campaign)),
-            metric or _ANY_METRIC,
+            [metric] if metric else [],
             replace(without, longest_s=jitter_s),
         )
         for jitter_s in _jitters(diagnosis.airtime_s, period_s)
@@ -139,10 +137,10 @@ def _rounded(seconds: float) -> float:
 def _trial(jitter_s: float, seen: Sequence[Observation], metric: str | None) -> Trial:
     for place, each in enumerate(seen):
         if each.failure:
-            raise FailedRunError(f"jitter of {jitter_s:g} s, run {place}: {each.failure}")
+            raise RuntimeError(f"jitter of {jitter_s:g} s, run {place}: {each.failure}")
     receptions = sum(each.receptions for each in seen)
     lost = sum(sum(each.losses.values()) for each in seen)
-    values = [each.value for each in seen if each.value is not None]
+    values = [each.numbers.get(metric, 0.0) for each in seen] if metric else []
     return Trial(
         jitter_s,
         1 - lost / receptions if receptions else 1.0,

@@ -10,13 +10,14 @@ from gradysim.results.confidence_interval import Estimate
 
 def ladder_numbers(rungs: Sequence[Rung], metric: str, run_count: int) -> Numbers:
     """Return the mean of the metric at each level, with its 95 % interval."""
+    rungs = [rung for rung in rungs if rung.metric is not None]
     names = [rung.level.name for rung in rungs]
     curve = Curve(
         {},
         {
             "level": names,
             "runs": [run_count] * len(rungs),
-            **columns_of([rung.metric for rung in rungs]),
+            **columns_of([rung.metric for rung in rungs if rung.metric is not None]),
         },
     )
     return Numbers([curve], "level", label_of(metric), caption_of("mean", [run_count]), names)

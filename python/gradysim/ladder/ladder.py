@@ -1,12 +1,14 @@
 """The ladder itself: a metric at each level, and its change from the level before."""
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 
-from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, FailedRunError, Observation
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.failure import Failure
 from gradysim.ladder.levels import Level
+from gradysim.ladder.observation import LOST_MESSAGES, Observation
 from gradysim.results.confidence_interval import Estimate, estimate
 from gradysim.results.paired import compare_pairs
 
@@ -21,18 +23,21 @@ class Rung:
     Attributes:
         number: 0 for the most ideal level.
         level: What it adds.
-        metric: Mean over the runs, with its interval.
-        change: From the level before, paired by seed; None at the first level that was run.
+        metric: Mean over the runs that came to their end, with its interval; None if all of them failed.
+        change: From the level before, paired by seed; None at the first level that was run, and without
+            pairs.
+        failures: Why runs failed: {position of the run: its exception}.
         loss: The most frequent outcome of lost receptions or messages; "" below 0.05 %.
         loss_ratio: Its share of the receptions within the range, or of the messages.
     """
 
     number: int
     level: Level
-    metric: Estimate
+    metric: Estimate | None
     change: Estimate | None
     loss: str
     loss_ratio: float
+    failures: Mapping[int, Failure]
 
 
 def climb(campaign: Campaign, metric: str, levels: range, executor: Executor | None = None) -> Iterator[Rung]:
@@ -48,26 +53,30 @@ def climb(campaign: Campaign, metric: str, levels: range, executor: Executor | N
 
     Raises:
         ConfigError: The runs have no such metric.
-        FailedRunError: A run failed.
     """
     submitted = {
-        number: campaign.observations(executor, campaign.effects_up_to(number), range(len(campaign)), metric)
+        number: campaign.observations(
+            executor, campaign.effects_up_to(number), range(len(campaign)), [metric]
+        )
         for number in levels
     }
-    before: Sequence[float] = ()
+    before: Sequence[float | None] = ()
     binary = True  # as long as it is 0 or 1 in all runs
     for number, observations in submitted.items():
         seen = list(observations)
-        values = [_value(each, campaign.levels[number], place) for place, each in enumerate(seen)]
-        binary = binary and all(each.binary for each in seen)
+        values = [None if each.failure else each.numbers.get(metric, 0.0) for each in seen]
+        pairs = [(one, other) for one, other in zip(before, values, strict=False) if None not in (one, other)]
+        known = [value for value in values if value is not None]
+        binary = binary and all(metric in each.binary or metric not in each.numbers for each in seen)
         loss, ratio = _most_frequent_loss(seen)
         yield Rung(
             number,
             campaign.levels[number],
-            estimate(values, binary=binary),
-            compare_pairs(before, values, binary=binary).difference if before else None,
+            estimate(known, binary=binary) if known else None,
+            compare_pairs(*zip(*pairs, strict=True), binary=binary).difference if pairs else None,
             loss,
             ratio,
+            {place: each.failure for place, each in enumerate(seen) if each.failure is not None},
         )
         before = values
 
@@ -80,15 +89,12 @@ def largest_drop(rungs: Sequence[Rung]) -> Rung | None:
     ratios = [
         (rung.change.mean / (rung.metric.mean - rung.change.mean), number)
         for number, rung in enumerate(rungs)
-        if rung.change is not None and rung.change.mean < 0 and rung.change.excludes_zero
+        if rung.metric is not None
+        and rung.change is not None
+        and rung.change.mean < 0
+        and rung.change.excludes_zero
     ]
     return rungs[min(ratios)[1]] if ratios else None
-
-
-def _value(seen: Observation, level: Level, place: int) -> float:
-    if seen.value is None:
-        raise FailedRunError(f"level {level.name}, run {place}: {seen.failure}")
-    return seen.value
 
 
 def _most_frequent_loss(seen: Sequence[Observation]) -> tuple[str, float]:

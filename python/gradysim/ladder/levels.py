@@ -3,6 +3,9 @@
 A level is declared by the settings that leave its effect out. At level k, the effects of the levels above k
 are left out, and everything else is as the scenario says. Random streams have a purpose each, so that levels
 share positions, traffic and all draws that both of them make.
+
+Any effect can be left out alone. Some cannot exist without others: frames without airtime do not collide, and
+a circle knows no noise. Such a level names what it needs, and is left out with it.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -21,17 +24,25 @@ def _always(scenario: Scenario) -> bool:
     return True
 
 
+def _timing(scenario: Scenario) -> str:
+    """Return what takes time, `radioMedium.timing`."""
+    chosen = scenario.medium.get("timing")
+    if chosen is not None:
+        return str(chosen.value)
+    return "mac" if _has_radios(scenario) else "instant"
+
+
+def _timing_is(*timings: str) -> Callable[[Scenario], bool]:
+    return lambda scenario: _timing(scenario) in timings
+
+
 def _has_radios(scenario: Scenario) -> bool:
     chosen = scenario.medium.get("typename")
     return chosen is None or chosen.value != UNIT_DISK
 
 
-def _takes_time(*timings: str) -> Callable[[Scenario], bool]:
-    def applies(scenario: Scenario) -> bool:
-        chosen = scenario.medium.get("timing")
-        return _has_radios(scenario) or (chosen is not None and chosen.value in timings)
-
-    return applies
+def _has_capture(scenario: Scenario) -> bool:
+    return _has_radios(scenario) and _timing(scenario) == "mac"
 
 
 def _path_loss_is(*names: str) -> Callable[[Scenario], bool]:
@@ -86,6 +97,7 @@ class Level:
         name: Its name.
         adds: What it adds to the level before.
         off: {key: value} of the settings without its effect.
+        needs: Names of the levels without which it has no effect.
         applies: Whether a scenario has the effect. Otherwise the level is left out.
         is_added: Whether it is a section `[Level NAME]` of the file, which adds lines to the scenario.
         has_node: Whether a node has the effect. Then the settings hold for such nodes alone, and a scenario
@@ -96,6 +108,7 @@ class Level:
     adds: str
     off: Mapping[str, str] = field(default_factory=dict)
     applies: Callable[[Scenario], bool] = _always
+    needs: tuple[str, ...] = ()
     is_added: bool = False
     has_node: Callable[[NodeSpec], bool] | None = None
 
@@ -119,6 +132,8 @@ def _names(nodes: Sequence[NodeSpec], has_effect: Callable[[NodeSpec], bool]) ->
     return names
 
 
+_TIMING = "*.radioMedium.timing"
+_ANY_POWER = "-300dBm"
 _FREE_SPACE = {"*.radioMedium.pathLoss.typename": '"FreeSpacePathLoss"'}
 _RADIO = "*.*.wlan[*].radio"
 
@@ -127,25 +142,37 @@ LEVELS = (
     Level(
         "range",
         "the range of the radio",
-        {f"{_RADIO}.transmitter.communicationRange": _UNLIMITED},
+        {
+            f"{_RADIO}.transmitter.communicationRange": _UNLIMITED,
+            f"{_RADIO}.receiver.sensitivity": _ANY_POWER,
+            f"{_RADIO}.receiver.preambleDetection.minimumPower": _ANY_POWER,
+        },
     ),
     Level(
         "airtime",
         "time on the air and on the way",
-        {"*.radioMedium.timing": '"instant"'},
-        _takes_time("airtime", "channelAccess"),
+        {_TIMING: '"instant"'},
+        _timing_is("mac", "airtime", "aloha", "channelAccess"),
     ),
     Level(
         "access",
         "waiting until the channel is free",
-        {"*.radioMedium.timing": '"airtime"'},
-        _takes_time("channelAccess"),
+        {_TIMING: '"airtime"'},
+        _timing_is("mac", "channelAccess"),
+        needs=("airtime",),
+    ),
+    Level(
+        "radio",
+        "reception by power instead of a circle",
+        {"*.radioMedium.typename": f'"{UNIT_DISK}"'},
+        _has_radios,
     ),
     Level(
         "interference",
-        "collisions: overlapping frames are lost",
-        {"*.radioMedium.typename": f'"{UNIT_DISK}"', "*.radioMedium.timing": '"channelAccess"'},
-        _has_radios,
+        "the real MAC, and collisions: overlapping frames are lost",
+        {_TIMING: '"channelAccess"'},
+        _timing_is("mac", "aloha"),
+        needs=("airtime",),
     ),
     Level(
         "capture",
@@ -155,7 +182,8 @@ LEVELS = (
             f"{_RADIO}.receiver.preambleDetection.typename": '""',
             f"{_RADIO}.receiver.frameCapture.typename": '""',
         },
-        _has_radios,
+        _has_capture,
+        needs=("radio", "interference"),
     ),
     Level(
         "noise",
@@ -166,36 +194,42 @@ LEVELS = (
             "*.radioMedium.backgroundNoise.power": "-300dBm",
         },
         _has_radios,
+        needs=("radio",),
     ),
     Level(
         "shadowing",
         "a random gain of each link",
         {"*.radioMedium.pathLoss.sigma": "0", "*.radioMedium.shadowing.standardDeviation": "0dB"},
         _has_shadowing,
+        needs=("radio",),
     ),
     Level(
         "fading",
         "gains that vary from frame to frame",
         _FREE_SPACE,
         _path_loss_is("RayleighFading", "RicianFading", "NakagamiFading"),
+        needs=("radio",),
     ),
     Level(
         "ground",
         "reflection from the ground",
         _FREE_SPACE,
         _path_loss_is("TwoRayGroundReflection", "TwoRayInterference"),
+        needs=("radio",),
     ),
     Level(
         "obstacles",
         "obstacles that weaken or block frames",
         {"*.radioMedium.obstacleLoss.typename": '""'},
         _has_obstacles,
+        needs=("radio",),
     ),
     Level(
         "antennas",
         "antennas that prefer directions",
         {f"{_RADIO}.antenna.typename": '"IsotropicAntenna"'},
         _has_antennas,
+        needs=("radio",),
     ),
     Level(
         "inertia",
@@ -207,6 +241,7 @@ LEVELS = (
         "autopilot",
         "vehicles flown by ArduPilot",
         {"*.*.mobility.typename": '"QuadcopterMobility"'},
+        needs=("inertia",),
         has_node=_has_autopilot,
     ),
     Level(
@@ -214,6 +249,7 @@ LEVELS = (
         "wind and gusts",
         {"*.wind.speed": "0mps", "*.wind.gusts": "0mps"},
         _has_wind,
+        needs=("inertia",),
     ),
     Level(
         "position",
@@ -239,14 +275,30 @@ def levels_of(scenario: Scenario, sections: Mapping[str, Section]) -> tuple[Leve
     )
 
 
-def settings_without(left_out: Collection[str], levels: Sequence[Level]) -> list[str]:
-    """Return the "KEY=VALUE" settings that leave out these effects, by the names of their levels.
+def working(effects: Collection[str], levels: Sequence[Level]) -> frozenset[str]:
+    """Return those of these effects that have what they need."""
+    present = {level.name for level in levels}
+    found: set[str] = set()
+    for level in levels:
+        if level.name in effects and all(name in found for name in level.needs if name in present):
+            found.add(level.name)
+    return frozenset(found)
+
+
+def settings_of(effects: Collection[str], levels: Sequence[Level]) -> list[str]:
+    """Return the "KEY=VALUE" settings that leave out all other effects.
 
     The most ideal one comes first, since the first line of a key counts.
     """
-    return [
-        f"{key}={value}" for level in levels if level.name in left_out for key, value in level.off.items()
-    ]
+    kept = working(effects, levels)
+    left_out = [level for level in levels if level.name not in kept]
+    off = [(key, value) for level in left_out for key, value in level.off.items()]
+    if "interference" in kept:
+        if "access" in kept:  # the MAC needs radios, and on a free-space path they make a circle
+            off = [(key, value) for key, value in off if value != f'"{UNIT_DISK}"']
+        else:
+            off = [(key, '"aloha"' if key == _TIMING else value) for key, value in off]
+    return [f"{key}={value}" for key, value in off]
 
 
 def added_sections(effects: Collection[str], levels: Sequence[Level]) -> list[str]:

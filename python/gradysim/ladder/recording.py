@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gradysim.integrated.network import node_config
 from gradysim.ladder.callbacks import Callback, CallbackLog, Cause
-from gradysim.ladder.campaign import Campaign, Effects, _messages
+from gradysim.ladder.campaign import Campaign, Effects
+from gradysim.ladder.failure import Failure
+from gradysim.ladder.observation import messages_of
 from gradysim.replay.reader import Replay, read_replay
 from gradysim.replay.sink import ReplayWriter
 from gradysim.replay.tables import BROADCAST, FRAME_KINDS, OUTCOMES
@@ -60,9 +62,9 @@ def record(campaign: Campaign, effects: Effects, place: int, path: Path) -> Reco
             with run:
                 run.run_until()
         except Exception as exception:
-            failure = f"{type(exception).__name__}: {exception}"
+            failure = str(Failure.of(exception))
     capacities = {spec.id: sum(map(_queue_capacity, node_config(spec).wlan)) for spec in scenario.nodes}
-    return Recorded(log, _messages(run.result().fates), capacities, failure)
+    return Recorded(log, messages_of(run.result().fates), capacities, failure)
 
 
 def _queue_capacity(interface: "InterfaceConfig") -> int:

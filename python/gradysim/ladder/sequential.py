@@ -1,7 +1,4 @@
-"""Sequential tests: as many runs as it takes to decide whether a protocol works or fails.
-
-Source: A. Wald, "Sequential tests of statistical hypotheses", Annals of Mathematical Statistics 16, 1945.
-"""
+"""Sequential tests: as many runs as a decision takes. Repeated looks do not change the error rate."""
 
 import math
 from collections.abc import Iterable
@@ -9,9 +6,14 @@ from collections.abc import Iterable
 _CLOSEST = 0.02
 """Ratios are at least this far from 0 and 1, so that one odd run decides nothing."""
 
+_ALTERNATIVES = ((0.9, 0.95), (0.1, 0.75))
+"""(weight, probability that a pair of runs that differs is in favor of the better setting)."""
+
 
 class SequentialTest:
     """Decides between two ratios of successful runs, with a given probability of an error.
+
+    Source: A. Wald, "Sequential tests of statistical hypotheses", Annals of Mathematical Statistics 16, 1945.
 
     Attributes:
         successes: Number of successful runs so far.
@@ -45,14 +47,15 @@ class SequentialTest:
         return None if abs(log_ratio) < self._bound else log_ratio > 0
 
 
-def probability_of_pairs(better: int, worse: int) -> float:
-    """Return the probability of at least that many pairs in favor of the better setting, by chance alone.
+def evidence_of_pairs(better: int, worse: int) -> float:
+    """Return the evidence that the better setting is better, from pairs of runs on a common seed.
 
-    `better` pairs of runs with a common seed succeeded in it only, `worse` pairs in the other one only. It is
-    the one-sided p of McNemar's exact test.
+    `better` pairs succeeded in the better setting only, `worse` pairs in the other one only. The value is a
+    likelihood ratio: if the settings do not differ, it ever exceeds 1 / p with probability p at most, however
+    often it is looked at.
 
-    Source: Q. McNemar, "Note on the sampling error of the difference between correlated proportions or
-    percentages", Psychometrika 12, 1947.
+    Source: J. Ville, "Étude critique de la notion de collectif", 1939 (the bound); Q. McNemar, "Note on the
+    sampling error of the difference between correlated proportions or percentages", Psychometrika 12, 1947
+    (the pairs).
     """
-    pairs = better + worse
-    return float(sum(math.comb(pairs, count) for count in range(better, pairs + 1)) / 2**pairs)
+    return sum(weight * (2 * p) ** better * (2 * (1 - p)) ** worse for weight, p in _ALTERNATIVES)

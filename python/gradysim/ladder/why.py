@@ -9,9 +9,10 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from gradysim.ladder.campaign import LOST_MESSAGES, Campaign, Effects
+from gradysim.ladder.campaign import Campaign, Effects
 from gradysim.ladder.clashes import Diagnosis, diagnose
 from gradysim.ladder.difference import Difference, first_difference
+from gradysim.ladder.observation import LOST_MESSAGES
 from gradysim.ladder.recording import Recording, read_recording, record_to_files
 from gradysim.replay.reader import Replay
 from gradysim.replay.tables import BROADCAST, FRAME_KINDS, NOT_LOST

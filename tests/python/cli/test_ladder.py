@@ -1,5 +1,6 @@
 """`gradysim ladder`, `bisect` and `desync` on two UAVs that talk."""
 
+import json
 import os
 import signal
 import subprocess
@@ -22,7 +23,7 @@ LADDER = ("ladder", "test.ini", "--metric", "uavs[*] said", "-n", "2", "-j", "1"
 def test_each_level_of_the_scenario_has_a_row(gradysim: Gradysim) -> None:
     done = gradysim(*LADDER)
     levels = [line.split()[1] for line in done.stdout.splitlines() if line[:1].isdecimal()]
-    assert levels == ["ideal", "range", "airtime", "access", "interference", "capture", "noise"]
+    assert levels == ["ideal", "range", "airtime", "access", "radio", "interference", "capture", "noise"]
     assert done.returncode == OK
 
 
@@ -49,13 +50,50 @@ def test_a_wrong_name_is_told_with_the_nearest_one(
 
 def test_a_protocol_that_fails_is_told_with_level_and_run(gradysim: Gradysim) -> None:
     done = gradysim(*LADDER, "-c", "Failing")
-    assert "level ideal, run 0: RuntimeError: spoilt" in done.stderr
+    assert "level 0, run 0: RuntimeError: spoilt, in " in done.stderr
+    assert "(Failing 1) at 1 s" in done.stderr
+    assert done.stdout.count("failed") == 8
     assert done.returncode == FAILED
 
 
+def test_bisect_names_the_exception_of_a_protocol(gradysim: Gradysim) -> None:
+    done = gradysim("bisect", "test.ini", "-c", "Failing", "--assert", "uavs[*] said >= 1", "-j", "1")
+    assert "RuntimeError: spoilt, in " in " ".join(done.stdout.split())
+    assert not done.stderr
+    assert done.returncode == FAILED
+
+
+def test_json_has_the_runs_of_each_level(gradysim: Gradysim) -> None:
+    ladder = json.loads(gradysim(*LADDER, "--json").stdout)
+    assert [level["metric"]["mean"] for level in ladder["levels"]] == [10] * 8
+    arguments = "--assert", "uavs[*] said >= 10 and events > 0", "--max-runs", "24", "--json", "-j", "1"
+    found = json.loads(gradysim("bisect", "test.ini", *arguments).stdout)
+    assert (found["holds"], found["fails"], found["runs"]) == (True, None, 24)
+    assert [(level["held"], level["runs"]) for level in found["levels"]] == [(3, 3)] * 8
+
+
+def test_runs_that_are_kept_are_found_by_each_command(gradysim: Gradysim, folder: Path) -> None:
+    first = gradysim(*LADDER, "--result-dir", "kept")
+    file = folder / "kept" / "General.runs.jsonl"
+    assert len(file.read_text(encoding="utf-8").split("\n")) == 2 * 8 + 1
+    again = gradysim(*LADDER, "--result-dir", "kept", "--resume")
+    assert again.stdout == first.stdout
+    bisect = "bisect", "test.ini", "--assert", "uavs[*] said >= 10", "--max-runs", "16", "-j", "1"
+    gradysim(*bisect, "--result-dir", "kept", "--resume")
+    lines = [line for line in file.read_text(encoding="utf-8").splitlines() if line]
+    assert len(lines) == 2 * 8
+
+
+def test_resume_needs_a_directory(gradysim: Gradysim) -> None:
+    done = gradysim(*LADDER, "--resume")
+    assert "--result-dir DIR" in done.stderr
+    assert done.returncode == MISTAKE
+
+
 def test_the_exit_code_of_bisect_tells_whether_it_works(gradysim: Gradysim, folder: Path) -> None:
-    works = gradysim("bisect", "test.ini", "--assert", "uavs[*] said >= 10", "-j", "1")
+    works = gradysim("bisect", "test.ini", "--assert", "uavs[*] said >= 10", "--max-runs", "24", "-j", "1")
     assert works.returncode == OK
+    assert "all 8 levels" in works.stdout
     fails = gradysim("bisect", "test.ini", "--assert", "uavs[*] said >= 11", "-j", "1")
     assert fails.returncode == FAILED
 
@@ -72,17 +110,23 @@ def test_nothing_is_delayed_if_nothing_clashes(gradysim: Gradysim) -> None:
     assert done.returncode == OK
 
 
-def test_ctrl_c_ends_a_command_at_once_with_all_of_its_processes(folder: Path) -> None:
-    command = [sys.executable, "-m", "gradysim", *LADDER, "-c", "Endless"]
+@pytest.mark.parametrize(
+    ("number", "code"), [(signal.SIGINT, INTERRUPTED), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
+)
+def test_a_signal_ends_a_command_at_once_with_all_of_its_processes(
+    folder: Path, number: signal.Signals, code: int
+) -> None:
+    command = [sys.executable, "-m", "gradysim", *LADDER, "-c", "Endless", "--result-dir", "kept"]
     with subprocess.Popen(
         command, cwd=folder, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True
     ) as process:
         assert process.stderr is not None
         while "ready" not in (line := process.stderr.readline()):
             assert line, "it ended before it was ready"
-        os.kill(process.pid, signal.SIGINT)
-        process.communicate(timeout=30)
-    assert process.returncode == INTERRUPTED
+        os.kill(process.pid, number)
+        _, error_output = process.communicate(timeout=30)
+    assert process.returncode == code
+    assert "0 runs have ended and kept in kept/Endless.runs.jsonl" in error_output
     wait_until(lambda: not session(process.pid), 5)
 
 

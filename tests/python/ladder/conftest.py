@@ -7,6 +7,7 @@ import pytest
 
 from gradysim.ladder.campaign import Campaign
 from gradysim.ladder.clashes import Diagnosis, diagnose
+from gradysim.ladder.kept_runs import KeptRuns
 from gradysim.replay.reader import read_replay
 from python.quiet_protocol import QUIET
 
@@ -61,10 +62,16 @@ sim-time-limit = 5.05s
 def make_campaign(tmp_path: Path) -> Callable[..., Campaign]:
     """`make_campaign(*settings, file="...")`: three nodes that send beacons; `file` ends the .ini file."""
 
-    def make(*settings: str, file: str = "", run_count: int = 1, config: str = "General") -> Campaign:
+    def make(
+        *settings: str,
+        file: str = "",
+        run_count: int = 1,
+        config: str = "General",
+        kept: KeptRuns | None = None,
+    ) -> Campaign:
         (tmp_path / "protocol.py").write_text(PROTOCOL, encoding="utf-8")
         (tmp_path / "test.ini").write_text(INI + file, encoding="utf-8")
-        return Campaign(tmp_path / "test.ini", config, settings=settings, run_count=run_count)
+        return Campaign(tmp_path / "test.ini", config, settings=settings, run_count=run_count, kept=kept)
 
     return make
 

@@ -10,7 +10,10 @@ import pytest
 import gradysim
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import medium_config
-from gradysim.ladder.campaign import Campaign, Effects, Observation
+from gradysim.ladder.campaign import Campaign, Effects
+from gradysim.ladder.kept_runs import KeptRuns
+from gradysim.ladder.observation import Observation
+from gradysim.replay.reader import read_replay
 from gradysim.scenario.errors import ConfigError
 
 SCATTERED = """
@@ -89,9 +92,7 @@ def test_runs_have_different_seeds(make_campaign: Callable[..., Campaign]) -> No
 
 
 def noise_dbm(campaign: Campaign, *effects: str) -> str:
-    field = campaign.scenario(frozenset({"interference", "noise", *effects}), 0).medium.get(
-        "background_noise_w"
-    )
+    field = campaign.scenario(frozenset({"radio", "noise", *effects}), 0).medium.get("background_noise_w")
     return "default" if field is None else f"{1000 * float(field.value):.3g} mW"
 
 
@@ -125,8 +126,8 @@ def test_an_observation_has_the_metric_and_the_losses(
     campaign = make_campaign(run_count=2)
     with ThreadPoolExecutor(1) as executor:
         chosen = executor if with_executor else None
-        seen = list(campaign.observations(chosen, campaign.all_effects, range(2), "nodes[*] heard"))
-    assert [each.value for each in seen] == [0, 0]
+        seen = list(campaign.observations(chosen, campaign.all_effects, range(2), ["nodes[*] heard"]))
+    assert [each.numbers["nodes[*] heard"] for each in seen] == [0, 0]
     beacons = 3 * 41
     assert seen[0].losses == {"receiver_transmitting": 2 * beacons}
     assert seen[0].receptions == 2 * beacons
@@ -136,14 +137,67 @@ def test_an_observation_has_the_metric_and_the_losses(
 def test_an_unknown_metric_is_refused_with_the_nearest_one(make_campaign: Callable[..., Campaign]) -> None:
     campaign = make_campaign()
     with pytest.raises(ConfigError, match=r"did you mean `nodes\[\*\] heard`"):
-        list(campaign.observations(None, campaign.all_effects, range(1), "nodes[*] herd"))
+        list(campaign.observations(None, campaign.all_effects, range(1), ["nodes[*] herd"]))
 
 
-def test_a_run_that_fails_has_no_value(make_campaign: Callable[..., Campaign]) -> None:
+def test_a_run_that_fails_has_no_numbers_but_the_exception_and_its_line(
+    make_campaign: Callable[..., Campaign], tmp_path: Path
+) -> None:
     campaign = make_campaign("**.protocol.interval=-1")
-    (seen,) = campaign.observations(None, campaign.all_effects, range(1), "nodes[*] heard")
-    assert seen == Observation(None, failure=seen.failure)
-    assert seen.failure
+    (seen,) = campaign.observations(None, campaign.all_effects, range(1), ["nodes[*] heard"])
+    assert not seen.numbers
+    assert seen.failure is not None
+    assert seen.failure.exception == "TimerException"
+    assert seen.failure.where == "in handle_timer of node 0 (Beacon 0) at 1 s of simulated time"
+    source = (tmp_path / "protocol.py").read_text(encoding="utf-8").splitlines()
+    file, _, number = seen.failure.line.rpartition(":")
+    assert Path(file) == tmp_path / "protocol.py"
+    assert "schedule_timer" in source[int(number) - 1]
+
+
+def test_a_run_that_fails_is_recorded_up_to_there(
+    make_campaign: Callable[..., Campaign], tmp_path: Path
+) -> None:
+    campaign = make_campaign("**.protocol.interval=-1")
+    seen = campaign.record(campaign.all_effects, 0, tmp_path / "run.html")
+    assert seen.failure is not None
+    assert read_replay(tmp_path / "run.html").end_s == 1
+
+
+def test_a_campaign_finds_the_runs_that_are_kept(
+    make_campaign: Callable[..., Campaign], tmp_path: Path
+) -> None:
+    def seen(resume: bool, *settings: str) -> tuple[list[Observation], Campaign]:
+        with KeptRuns(tmp_path / "kept", "General", resume=resume) as kept:
+            campaign = make_campaign(*settings, run_count=3, kept=kept)
+            return list(campaign.observations(None, campaign.all_effects, range(3))), campaign
+
+    first, _ = seen(False)
+    again, campaign = seen(True)
+    assert again == first
+    assert (campaign.run_count, campaign.kept_count) == (0, 3)
+    _, other = seen(True, "**.protocol.step=0.01")
+    assert (other.run_count, other.kept_count) == (3, 0)
+    _, without_resume = seen(False)
+    assert without_resume.run_count == 3
+
+
+@pytest.mark.parametrize("damage", ["cut", "changed", "empty"])
+def test_a_kept_run_that_is_damaged_is_done_again(
+    make_campaign: Callable[..., Campaign], tmp_path: Path, damage: str
+) -> None:
+    for resume in (False, True, True):
+        with KeptRuns(tmp_path, "General", resume=resume) as kept:
+            campaign = make_campaign(run_count=2, kept=kept)
+            list(campaign.observations(None, campaign.all_effects, range(2)))
+        if not resume:
+            text = kept.path.read_text(encoding="utf-8")
+            changed = {"cut": text[:-40], "changed": text.replace("heard", "haerd", 1), "empty": ""}
+            kept.path.write_text(changed[damage], encoding="utf-8")
+            done = 0 if damage == "empty" else 1
+        else:
+            assert campaign.kept_count == done
+            done = 2
 
 
 FLYING = ('*.nodes[*].mobility.typename="QuadcopterMobility"', "*.nodes[*].mobility.initialZ=20m")

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from gradysim.ladder.campaign import Campaign, FailedRunError
+from gradysim.ladder.campaign import Campaign
 from gradysim.ladder.desync import desynchronize
 from gradysim.ladder.desync_words import desync_sentences
 
@@ -61,5 +61,5 @@ def test_a_run_with_jitter_that_fails_is_reported(
         raise ValueError("broken")
 
     monkeypatch.setattr("gradysim.ladder.jitter.Jitter.add_to", fail)
-    with pytest.raises(FailedRunError, match="jitter of 0 s, run 0: ValueError: broken"):
+    with pytest.raises(RuntimeError, match="jitter of 0 s, run 0: ValueError: broken"):
         desynchronize(make_campaign())

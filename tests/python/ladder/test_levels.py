@@ -3,9 +3,9 @@ from collections.abc import Callable
 import pytest
 
 from gradysim.ladder.campaign import Campaign
-from gradysim.ladder.levels import LEVELS, settings_without
+from gradysim.ladder.levels import LEVELS, settings_of, working
 
-RADIO = ["ideal", "range", "airtime", "access", "interference", "capture", "noise"]
+RADIO = ["ideal", "range", "airtime", "access", "radio", "interference", "capture", "noise"]
 BOX = """
 *.environment.numObstacles = 1
 *.environment.obstacle[0].minX = 500m
@@ -64,6 +64,7 @@ def test_each_effect_of_the_scenario_is_a_level(
     [
         ("instant", ["ideal", "range"]),
         ("airtime", ["ideal", "range", "airtime"]),
+        ("aloha", ["ideal", "range", "airtime", "interference"]),
         ("channelAccess", ["ideal", "range", "airtime", "access"]),
     ],
 )
@@ -84,22 +85,66 @@ def test_sections_of_the_file_are_the_last_levels(make_campaign: Callable[..., C
     assert [level.adds for level in campaign.levels[-2:]] == ["it rains", "the lines of [Level slow]"]
 
 
-def test_the_settings_of_the_most_ideal_level_come_first() -> None:
-    off = settings_without({"interference", "airtime", "access"}, LEVELS)
-    timings = [line.partition("=")[2] for line in off if line.startswith("*.radioMedium.timing")]
-    assert timings == ['"instant"', '"airtime"', '"channelAccess"']
+ALL = frozenset(level.name for level in LEVELS)
+
+
+def setting(key: str, *left_out: str) -> str | None:
+    """Return the value of a key in the settings without some effects: the first one counts."""
+    lines = [line.partition("=") for line in settings_of(ALL - set(left_out), LEVELS)]
+    return next((value.strip('"') for name, _, value in lines if name == key), None)
+
+
+@pytest.mark.parametrize(
+    ("left_out", "timing", "typename"),
+    [
+        ((), None, None),
+        (("radio",), None, None),  # the MAC needs radios
+        (("interference",), "channelAccess", None),
+        (("radio", "interference"), "channelAccess", "UnitDiskRadioMedium"),
+        (("access",), "aloha", None),
+        (("access", "radio"), "aloha", "UnitDiskRadioMedium"),
+        (("access", "interference"), "airtime", None),
+        (("airtime",), "instant", None),
+        (("airtime", "radio"), "instant", "UnitDiskRadioMedium"),
+        (("airtime", "access", "interference"), "instant", None),
+    ],
+)
+def test_each_effect_can_be_left_out_alone(
+    left_out: tuple[str, ...], timing: str | None, typename: str | None
+) -> None:
+    assert setting("*.radioMedium.timing", *left_out) == timing
+    assert setting("*.radioMedium.typename", *left_out) == typename
 
 
 def test_effects_that_are_not_left_out_have_no_settings() -> None:
-    assert settings_without((), LEVELS) == []
-    assert settings_without({"obstacles"}, LEVELS) == ['*.radioMedium.obstacleLoss.typename=""']
+    assert settings_of(ALL, LEVELS) == []
+    assert settings_of(ALL - {"obstacles"}, LEVELS) == ['*.radioMedium.obstacleLoss.typename=""']
+
+
+@pytest.mark.parametrize(
+    ("left_out", "also"),
+    [
+        ("airtime", {"access", "interference", "capture"}),
+        ("interference", {"capture"}),
+        ("inertia", {"autopilot", "wind"}),
+        ("range", set()),
+        ("access", set()),
+    ],
+)
+def test_effects_are_left_out_with_what_they_need(left_out: str, also: set[str]) -> None:
+    assert working(ALL - {left_out}, LEVELS) == ALL - {left_out} - also
+
+
+def test_what_a_scenario_does_not_have_is_not_needed() -> None:
+    levels = [level for level in LEVELS if level.name != "radio"]
+    assert "noise" in working({"noise"}, levels)
 
 
 def test_each_level_turns_its_effect_off_in_the_scenario(make_campaign: Callable[..., Campaign]) -> None:
     campaign = make_campaign(
         file='*.radioMedium.pathLoss.typename = "RicianFading"\n' + IDEAL_OBSTACLES + BOX
     )
-    ideal, full = (campaign.scenario(campaign.effects_up_to(level), 0) for level in (0, 8))
+    ideal, full = (campaign.scenario(campaign.effects_up_to(level), 0) for level in (0, 9))
     assert (ideal.medium["typename"].value, ideal.medium["timing"].value) == (
         "UnitDiskRadioMedium",
         "instant",

@@ -3,7 +3,7 @@ from random import Random
 
 import pytest
 
-from gradysim.ladder.sequential import SequentialTest, probability_of_pairs
+from gradysim.ladder.sequential import SequentialTest, evidence_of_pairs
 
 
 def decision(test: SequentialTest, outcomes: list[bool]) -> tuple[int, bool | None]:
@@ -48,19 +48,23 @@ def test_errors_are_as_rare_as_promised(high: float, low: float) -> None:
     assert wrong <= 27
 
 
-@pytest.mark.parametrize(
-    ("better", "worse", "probability"),
-    [
-        (0, 0, 1),
-        (1, 0, 1 / 2),
-        (7, 0, 1 / 128),
-        (0, 7, 1),
-        (1, 1, 3 / 4),
-        (8, 2, 56 / 1024),
-        (5, 5, 638 / 1024),
-    ],
-)
-def test_probability_of_pairs_is_the_tail_of_a_binomial_distribution(
-    better: int, worse: int, probability: float
-) -> None:
-    assert probability_of_pairs(better, worse) == pytest.approx(probability)
+def test_pairs_in_favor_of_one_setting_are_evidence() -> None:
+    assert evidence_of_pairs(0, 0) == 1
+    assert evidence_of_pairs(8, 0) > 140  # of a protocol that always breaks, after eight pairs
+    assert evidence_of_pairs(0, 8) < 0.01
+    assert evidence_of_pairs(10, 10) < 1
+
+
+def test_evidence_is_rarely_wrong_however_often_one_looks() -> None:
+    """Settings that do not differ: each pair that differs is in favor of either."""
+    random = Random(1)
+    wrong = 0
+    for _ in range(500):
+        better = worse = 0
+        for _ in range(200):
+            better, worse = (better + 1, worse) if random.random() < 0.5 else (better, worse + 1)
+            if evidence_of_pairs(better, worse) > 20:
+                wrong += 1
+                break
+    # 5 % of 500 are 25. More than 37 have a probability of 0.5 %.
+    assert wrong <= 37

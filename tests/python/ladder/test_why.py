@@ -34,7 +34,7 @@ def test_losses_to_other_frames(explanation_of: Callable[..., tuple[Explanation,
     assert found.first is not None
     assert (found.first.time_s, found.first.event.cause) == (1, "timer beacon")
     assert found.first.outcomes == ("delivered", "receiver_transmitting")
-    assert "Receptions lost to `receiver transmitting`: 100.0% at level 4, 0.0% at level 3." in text
+    assert "Receptions lost to `receiver transmitting`: 100.0% at level 5, 0.0% at level 4." in text
     assert 'the message of timer "beacon" from nodes[' in text
 
 

@@ -1,5 +1,6 @@
-#include "netsim/mac/unit_disk_interface.hpp"
+#include "netsim/mac/ideal_interface.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -292,6 +293,200 @@ TEST_F(UnitDiskWithAccess, WhatDoesNotFitIntoTheQueueIsDropped) {
     const auto counts = network.message_fates().counts(MessageKind::broadcast);
     EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::queue_overflow)], 3U);
     EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::sent)], 2U);
+}
+
+class UnitDiskWithAloha : public UnitDiskWithTime {
+protected:
+    UnitDiskWithAloha() : UnitDiskWithTime("aloha") {}
+
+    std::uint64_t lost(FrameFate fate) const {
+        return network.frame_fates().counts(FrameKind::broadcast, false)[static_cast<std::size_t>(fate)];
+    }
+};
+
+TEST_F(UnitDiskWithAloha, FramesThatOverlapAreLost) {
+    const auto send = [this](Recorder& self) { self.broadcast(text); };
+    add_node(-900).on_initialize = send;
+    const Recorder& between = add_node(0);
+    add_node(900).on_initialize = send;
+    run();
+    EXPECT_TRUE(between.packets.empty());
+    EXPECT_EQ(lost(FrameFate::interference), 2U);
+    EXPECT_EQ(network.frame_fates().interferers_at(1), (std::map<NodeId, std::uint64_t>{{0, 1}, {2, 1}}));
+}
+
+TEST_F(UnitDiskWithAloha, ANodeThatSendsReceivesNothing) {
+    const auto send = [this](Recorder& self) { self.broadcast(text); };
+    Recorder& first = add_node(0);
+    first.on_initialize = send;
+    add_node(0).on_initialize = send;
+    run();
+    EXPECT_TRUE(first.packets.empty());
+    EXPECT_EQ(lost(FrameFate::receiver_transmitting), 2U);
+}
+
+TEST_F(UnitDiskWithAloha, FramesOfOneSenderFollowEachOther) {
+    Recorder& sender = add_node(0);
+    const Recorder& receiver = add_node(0);
+    sender.on_initialize = [this](Recorder& self) {
+        self.broadcast(text);
+        self.broadcast(text);
+    };
+    run();
+    ASSERT_EQ(receiver.packets.size(), 2U);
+    EXPECT_GE(receiver.packets[1].time - receiver.packets[0].time, airtime);
+}
+
+TEST_F(UnitDiskWithAloha, ALostUnicastIsSentAgainAfterARandomDelay) {
+    const auto send = [this](Recorder& self) { self.send(1, text); };
+    add_node(-900).on_initialize = send;
+    const Recorder& between = add_node(0);
+    add_node(900).on_initialize = send;
+    run();
+    EXPECT_EQ(between.packets.size(), 2U);
+    const auto counts = network.message_fates().counts(MessageKind::unicast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::acknowledged)], 2U);
+    EXPECT_GT(network.frame_fates().frames(FrameKind::unicast), 2U);
+}
+
+MediumConfig scalar_with(std::string_view timing) {
+    MediumConfig config;
+    config.timing = timing;
+    return config;
+}
+
+// -85 dBm, the sensitivity, at 100 m.
+constexpr double power_for_100_m_w = 0.00032;
+
+class IdealRadios : public testing::Test {
+protected:
+    static NodeConfig config_at(double x) {
+        NodeConfig config("node");
+        config.initial_position = {x, 0, 0};
+        config.wlan[0].radio.tx_power_w = power_for_100_m_w;
+        config.mobility.telemetry_interval_s = 0;
+        return config;
+    }
+    static void run(Network& network) {
+        network.initialize();
+        network.run_until(s(1));
+    }
+    static std::uint64_t count(const Network& network, FrameKind kind, FrameFate fate) {
+        return network.frame_fates().counts(kind, false)[static_cast<std::size_t>(fate)];
+    }
+    const std::string text = std::string(100, 'x');
+};
+
+TEST_F(IdealRadios, PowerDecidesWhatArrives) {
+    for (const std::string_view timing : {"instant", "airtime", "channelAccess"}) {
+        Network network{scalar_with(timing), 1};
+        Recorder& sender = test::add_recorder(network, config_at(0));
+        const Recorder& near = test::add_recorder(network, config_at(95));
+        const Recorder& far = test::add_recorder(network, config_at(105));
+        sender.on_initialize = [this](Recorder& self) { self.broadcast(text); };
+        run(network);
+        EXPECT_EQ(near.packets.size(), 1U) << timing;
+        EXPECT_TRUE(far.packets.empty()) << timing;
+        EXPECT_EQ(count(network, FrameKind::broadcast, FrameFate::below_sensitivity), 1U) << timing;
+    }
+}
+
+TEST_F(IdealRadios, FramesDoNotCollide) {
+    Network network{scalar_with("channelAccess"), 1};
+    const auto send = [this](Recorder& self) { self.broadcast(text); };
+    test::add_recorder(network, config_at(-90)).on_initialize = send;
+    const Recorder& between = test::add_recorder(network, config_at(0));
+    test::add_recorder(network, config_at(90)).on_initialize = send;
+    run(network);
+    EXPECT_EQ(between.packets.size(), 2U);
+}
+
+TEST_F(IdealRadios, WithAlohaTheStrongerFrameSurvives) {
+    Network network{scalar_with("aloha"), 1};
+    const auto send = [this](Recorder& self) { self.broadcast(text + std::to_string(self.node.id())); };
+    test::add_recorder(network, config_at(-10)).on_initialize = send;
+    const Recorder& between = test::add_recorder(network, config_at(0));
+    test::add_recorder(network, config_at(90)).on_initialize = send;
+    run(network);
+    ASSERT_EQ(between.packets.size(), 1U);
+    EXPECT_EQ(between.packets[0].text.back(), '0');
+    EXPECT_EQ(count(network, FrameKind::broadcast, FrameFate::interference), 1U);
+}
+
+TEST_F(IdealRadios, WhatNoiseDestroysIsSentAgain) {
+    MediumConfig noisy = scalar_with("channelAccess");
+    noisy.background_noise_w = 2e-13;  // 12 dB below the frame at 100 m: some frames at 24 Mbps are lost
+    Network network{noisy, 1};
+    Recorder& sender = test::add_recorder(network, config_at(0));
+    const Recorder& receiver = test::add_recorder(network, config_at(99));
+    sender.on_initialize = [this](Recorder& self) {
+        for (int i = 0; i < 50; ++i) {
+            self.send(1, text);
+        }
+    };
+    run(network);
+    EXPECT_EQ(receiver.packets.size(), 50U);
+    EXPECT_GT(count(network, FrameKind::unicast, FrameFate::noise), 0U);
+    EXPECT_EQ(network.frame_fates().frames(FrameKind::unicast),
+              50 + count(network, FrameKind::unicast, FrameFate::noise));
+}
+
+TEST_F(IdealRadios, AfterTheRetryLimitAMessageIsGivenUp) {
+    MediumConfig noisy = scalar_with("airtime");
+    noisy.background_noise_w = 1e-12;
+    Network network{noisy, 1};
+    NodeConfig config = config_at(0);
+    config.wlan[0].radio.energy_detection_w = 1e-11;
+    Recorder& sender = test::add_recorder(network, config);
+    config.initial_position.x = 99;
+    test::add_recorder(network, config);
+    sender.on_initialize = [this](Recorder& self) { self.send(1, text); };
+    run(network);
+    EXPECT_EQ(network.frame_fates().frames(FrameKind::unicast), 7U);
+    const auto counts = network.message_fates().counts(MessageKind::unicast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::retry_limit)], 1U);
+}
+
+TEST_F(IdealRadios, EachChannelIsApart) {
+    Network network{scalar_with("channelAccess"), 1};
+    Recorder& sender = test::add_recorder(network, config_at(0));
+    NodeConfig other = config_at(10);
+    other.wlan[0].radio.carrier_hz = 2.462e9;
+    const Recorder& elsewhere = test::add_recorder(network, other);
+    sender.on_initialize = [this](Recorder& self) { self.broadcast(text); };
+    run(network);
+    EXPECT_TRUE(elsewhere.packets.empty());
+    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 0U);
+}
+
+// With no noise and no interference, radios receive what the real MAC and medium deliver.
+TEST_F(IdealRadios, ReceivesAloneWhatTheRealMacReceives) {
+    std::vector<std::vector<std::size_t>> received;
+    for (const std::string_view timing : {"mac", "channelAccess"}) {
+        Network network{scalar_with(timing), 1};
+        std::vector<const Recorder*> receivers;
+        Recorder& sender = test::add_recorder(network, config_at(0));
+        for (int i = 1; i <= 20; ++i) {
+            receivers.push_back(&test::add_recorder(network, config_at(7.3 * i)));
+        }
+        sender.on_initialize = [this](Recorder& self) { self.broadcast(text); };
+        run(network);
+        received.emplace_back();
+        for (const Recorder* receiver : receivers) {
+            received.back().push_back(receiver->packets.size());
+        }
+    }
+    EXPECT_EQ(received[0], received[1]);
+}
+
+TEST(IdealMedium, AUnitDiskHasNoMac) {
+    EXPECT_THROW(Network(unit_disk_with("mac"), 1), ConfigError);
+}
+
+TEST(IdealMedium, FramesWithoutAMacCannotBeCaptured) {
+    Network network{scalar_with("airtime"), 1};
+    test::add_recorder(network, NodeConfig("node"));
+    EXPECT_THROW(network.capture(0, "unused.pcap"), ConfigError);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// The time that a message takes on a perfect channel: the airtime of its frame in the format of the
-// interface, or none.
+// The time that a message takes without a MAC: the airtime of its frame in the format of the interface, or none.
 //
 // No rate control, RTS or fragmentation. A unicast frame occupies the channel until the end of its
 // ACK, if ACKs are used.
@@ -14,14 +13,20 @@
 
 namespace netsim {
 
-class UnitDiskTiming {
+class IdealTiming {
 public:
     // `timing`: MediumConfig::timing. Throws ConfigError for a bitrate that the operation mode does
     // not have.
-    UnitDiskTiming(std::string_view timing, const InterfaceConfig& config);
+    IdealTiming(std::string_view timing, const InterfaceConfig& config);
 
     bool is_instant() const { return is_instant_; }
-    bool waits_for_channel() const { return waits_for_channel_; }
+    // Whether a node sends one frame after the other.
+    bool has_queue() const { return senses_channel_ || collides_; }
+    // Whether it waits until the channel is free around it, too.
+    bool senses_channel() const { return senses_channel_; }
+    bool collides() const { return collides_; }
+    // Of a unicast frame.
+    int most_attempts() const { return most_attempts_; }
     int queue_capacity() const { return queue_capacity_; }
 
     const Mode& mode(FrameKind kind) const { return kind == FrameKind::broadcast ? *broadcast_ : *unicast_; }
@@ -37,9 +42,11 @@ public:
 
 private:
     bool is_instant_;
-    bool waits_for_channel_;
+    bool senses_channel_;
+    bool collides_;
     bool is_802154_;
     int queue_capacity_;
+    int most_attempts_;
     const Mode* broadcast_;
     const Mode* unicast_;
     SimTime response_;

@@ -1,4 +1,4 @@
-#include "netsim/mac/unit_disk_timing.hpp"
+#include "netsim/mac/ideal_timing.hpp"
 
 #include "netsim/config/medium_config.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
@@ -8,12 +8,15 @@
 
 namespace netsim {
 
-UnitDiskTiming::UnitDiskTiming(std::string_view timing, const InterfaceConfig& config)
+IdealTiming::IdealTiming(std::string_view timing, const InterfaceConfig& config)
     : is_instant_(timing == instant_timing),
-      waits_for_channel_(timing == channel_access_timing),
+      senses_channel_(timing == channel_access_timing),
+      collides_(timing == aloha_timing),
       is_802154_(config.type_name == ieee802154_interface),
-      queue_capacity_(is_802154_ ? config.csma.queue_capacity : config.mac.queue_capacity) {
+      queue_capacity_(is_802154_ ? config.csma.queue_capacity : config.mac.queue_capacity),
+      most_attempts_(config.mac.short_retry_limit) {
     if (is_802154_) {
+        most_attempts_ = config.csma.use_acks ? config.csma.max_frame_retries + 1 : 1;
         broadcast_ = unicast_ = &oqpsk_250_kbps;
         if (config.csma.use_acks) {
             response_ =
@@ -30,11 +33,11 @@ UnitDiskTiming::UnitDiskTiming(std::string_view timing, const InterfaceConfig& c
     gap_ = intervals.difs;
 }
 
-int UnitDiskTiming::psdu_bytes(int payload_bytes) const {
+int IdealTiming::psdu_bytes(int payload_bytes) const {
     return is_802154_ ? narrowband_psdu_bytes(payload_bytes) : data_psdu_bytes(payload_bytes);
 }
 
-SimTime UnitDiskTiming::airtime(FrameKind kind, int psdu_bytes) const {
+SimTime IdealTiming::airtime(FrameKind kind, int psdu_bytes) const {
     return is_instant_ ? SimTime{} : mode(kind).duration(psdu_bytes);
 }
 
