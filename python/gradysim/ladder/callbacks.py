@@ -17,6 +17,7 @@ from gradysim.protocol.interface import CALLBACKS, IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.plain_value import as_float
+from gradysim.protocol.position import Position
 from gradysim.replay.tables import BROADCAST
 from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.scenario import Scenario
@@ -87,7 +88,8 @@ class Callback:
         time_ns: Simulated time.
         name: As replays have it: `initialize`, `timer NAME`, `packet` or `telemetry`.
         argument: The start of the message of a packet; otherwise "".
-        number: How many calls of this name the node had before, for `initialize` and `telemetry`.
+        position: The position (m) that telemetry reports; None for other calls.
+        number: How many calls of this name the node had before.
         effects: What it did, in order.
         cause: What set the timer or sent the message; None for other calls, and if it is unknown.
         frame: Row of the replay's table `frames` that brought the message; None if there is none.
@@ -97,6 +99,7 @@ class Callback:
     time_ns: int
     name: str
     argument: str = ""
+    position: Position | None = None
     number: int = 0
     effects: list[Effect] = field(default_factory=list)
     cause: Cause | None = None
@@ -175,9 +178,10 @@ class _NodeLog:
             callback.cause = heappop(pending)[2] if pending else None
         elif name == "packet":
             callback.argument = self._log.text(arguments[0])
-        else:
-            callback.number = self._counts[name]
-            self._counts[name] += 1
+        elif name == "telemetry":
+            callback.position = arguments[0].current_position
+        callback.number = self._counts[callback.name]
+        self._counts[callback.name] += 1
         self._callback, self._place = callback, len(self._log.callbacks)
         self._log.callbacks.append(callback)
         self._made.clear()

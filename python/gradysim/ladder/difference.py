@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 from gradysim.ladder.callbacks import Callback, Cause, Effect, without_numbers
 from gradysim.ladder.recording import Recording
 
-Kind = Literal["lost", "gained", "order", "position", "time", "values"]
+Kind = Literal["lost", "gained", "order", "position", "reported position", "time", "values"]
 
 _NS_PER_S = 1e9
 _LEAST_DISTANCE_M = 0.001
@@ -47,8 +47,8 @@ class Difference:
 
     Attributes:
         kind: `lost` and `gained`: a message arrives in one run only. `order`: two callbacks in another order.
-            `position`: the node is elsewhere. `time`: the callback comes at another time. `values`: all of
-            that is equal, but the callback does something else.
+            `position`: the node is elsewhere. `reported position`: telemetry says so. `time`: the callback
+            comes at another time. `values`: all of that is equal, but the callback does something else.
         time_s: Time in the run that fails; in the run that works if it happens only there.
         node: Name of the node.
         event: The callback.
@@ -59,7 +59,8 @@ class Difference:
         outcomes: For `lost` and `gained`: what happens to the message in both runs.
         message: For `lost` and `gained`: the message is number N, from 1 on, of M to this destination in one
             callback.
-        distance_m: For `position`: distance between the two positions.
+        distance_m: For `position`: distance between the two positions. For `reported position`: distance
+            from the true one, in the run that fails if the callback is there.
         affected: The first callback that does something else because of it; None if there is none.
         affected_time_s: Its time.
         effects: What it does in one run only, in both runs; the most telling effects first.
@@ -363,13 +364,14 @@ class _Comparison:
     def _position(self, found: _Finding) -> Difference | None:
         callback = self._callback(found)
         time_s = callback.time_ns / _NS_PER_S
-        one, other = (each.replay.positions(time_s) for each in (self._works, self._fails))
-        distance_m = math.dist(one[callback.node], other[callback.node])
+        one, other = (each.replay.positions(time_s)[callback.node] for each in (self._works, self._fails))
+        kind: Kind = "position"
+        distance_m = math.dist(one, other)
+        if distance_m < _LEAST_DISTANCE_M and callback.position is not None:
+            kind, distance_m = "reported position", math.dist(callback.position, other)
         if distance_m < _LEAST_DISTANCE_M:
             return None
-        return Difference(
-            "position", time_s, self._names[callback.node], self._event(found), distance_m=distance_m
-        )
+        return Difference(kind, time_s, self._names[callback.node], self._event(found), distance_m=distance_m)
 
     def _delay(self, found: _Finding) -> Difference:
         callback = self._callback(found)

@@ -66,6 +66,8 @@ def _text_of(first: Difference, works: int, fails: int) -> str:
         return f"{event} comes {after} {other} at level {fails}, and {before} it at level {works}"
     if first.kind == "position":
         return f"in {event}, it is {first.distance_m:.3g} m away from its position at level {works}"
+    if first.kind == "reported position":
+        return f"{event} reports a position that is {first.distance_m:.3g} m away from the true one"
     if first.kind == "time":
         delay_s = first.apart_s[1]
         later = "later" if delay_s > 0 else "earlier"

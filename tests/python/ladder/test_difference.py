@@ -209,6 +209,23 @@ class Other(Node):
     assert names(found) == ({"far"}, {"far"})
 
 
+def test_a_position_that_telemetry_reports(tmp_path: Path) -> None:
+    watches = """
+class Base(Node):
+    def handle_telemetry(self, telemetry):
+        if telemetry.current_position[0] > 0.5:
+            self.count("outside")
+
+class Other(Node):
+    pass
+"""
+    errors = "*.base.mobility.telemetryInterval = 100ms\n*.base.mobility.positionError = 2m\n"
+    found = difference(tmp_path, watches, "noise", "position", errors)
+    assert (found.kind, found.event) == ("reported position", Event("telemetry"))
+    assert 0.5 < found.distance_m < 10
+    assert names(found) == (set(), {"outside"})
+
+
 def test_a_loss_before_what_it_changes(tmp_path: Path) -> None:
     """What the message changes is inside of an object, which the log does not see."""
     hides = """

@@ -38,6 +38,11 @@ LOOK = Event("timer look")
             " position at level 1.",
         ),
         (
+            Difference("reported position", 19, "drone", Event("telemetry"), distance_m=2.3),
+            "First difference, at 19.000000 s at drone: handle_telemetry reports a position that is 2.3 m"
+            " away from the true one.",
+        ),
+        (
             Difference("time", 2.5, "drone", REPORT, apart_s=(0, 0.0123)),
             'First difference, at 2.500000 s at drone: the message of timer "report-#" from drones[1] comes'
             " 12.3 ms later at level 2 than at level 1.",
