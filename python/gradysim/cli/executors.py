@@ -1,58 +1,143 @@
-"""Executors of `gradysim run --executor`, other than processes of this machine."""
+"""Workers of `gradysim run --executor`, other than processes of this machine."""
 
 import contextlib
+import logging
+import sys
+import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import Executor
-from dataclasses import dataclass
+from concurrent.futures import Executor, Future
 from typing import Any
 
 from gradysim.cli.options import RunOptions
 
-_CONNECT_S = 30
-"""Wall time in seconds to wait for a scheduler."""
+_ANSWERS_WITHIN_S = 30.0
+"""Wall time in seconds until a scheduler that does not answer is lost."""
+
+WITHOUT_WORKERS_S = 30.0
+"""Wall time in seconds until a cluster without workers is lost."""
 
 
-@dataclass(frozen=True)
+class WorkersLostError(Exception):
+    """No worker computes the groups that have begun, or it cannot report them."""
+
+
 class Workers:
-    """An executor, and a function that returns how many tasks it carries out at the same time."""
+    """The workers of any executor, such as a pool of processes.
 
-    executor: Executor
-    count: Callable[[], int]
+    Attributes:
+        executor: It computes groups.
+    """
+
+    def __init__(self, executor: Executor, count: int) -> None:
+        """`count` groups are computed at the same time."""
+        self.executor = executor
+        self._count = count
+
+    def count(self) -> int:
+        """Return how many groups are computed at the same time. Raises WorkersLostError."""
+        return self._count
+
+    def lost(self) -> WorkersLostError:
+        """Return the error after a group was canceled by the executor."""
+        return WorkersLostError("the executor has canceled its tasks")
+
+    def cancel(self, group: "Future[Any]") -> bool:
+        """Cancel a group, and return False if it may have begun."""
+        return group.cancel()
+
+    def call_each(self, function: Callable[..., object], *arguments: object) -> None:
+        """Call a function in the processes of the workers, of which this executor reaches only this one."""
+        function(*arguments)
+
+
+class _DaskWorkers(Workers):
+    """The workers of a Dask cluster, of which some may come and go."""
+
+    def __init__(self, client: Any, name: str) -> None:
+        """`name` is that of the cluster, for messages."""
+        super().__init__(client.get_executor(pure=False), 0)
+        self._client = client
+        self._name = name
+        self._seen_s = time.monotonic()
+
+    def count(self) -> int:
+        try:
+            threads = self._client.sync(self._client.scheduler.ncores, callback_timeout=_ANSWERS_WITHIN_S)
+        except OSError as error:
+            raise self.lost() from error
+        now_s = time.monotonic()
+        if threads:
+            self._seen_s = now_s
+        elif now_s - self._seen_s > WITHOUT_WORKERS_S:
+            raise WorkersLostError(
+                f"{self._name}: the scheduler has had no worker for {WITHOUT_WORKERS_S:g} s"
+            )
+        return sum(threads.values())
+
+    def lost(self) -> WorkersLostError:
+        return WorkersLostError(f"{self._name}: the scheduler does not answer any more")
+
+    def cancel(self, group: "Future[Any]") -> bool:
+        return False  # Dask cancels also what a worker goes on to compute
+
+    def call_each(self, function: Callable[..., object], *arguments: object) -> None:
+        if self._client.status == "running":
+            with contextlib.suppress(OSError):  # `count` reports it
+                self._client.run(function, *arguments, on_error="ignore")
 
 
 def check_executor(options: RunOptions) -> None:
-    """Raise ConfigError if --executor and --scheduler do not fit, or if Dask is not installed."""
+    """Raise ConfigError if --scheduler has no executor, or if Dask is not installed."""
     from gradysim.scenario.errors import ConfigError
 
     if options.executor != "dask":
         if options.scheduler is not None:
             raise ConfigError(f"--scheduler {options.scheduler}: expected --executor dask, too")
         return
-    if options.scheduler is None:
-        raise ConfigError("--executor dask: expected the address of its scheduler, --scheduler HOST:PORT")
     try:
         import distributed  # noqa: F401
     except ImportError as error:
         raise ConfigError(
             f"--executor dask: {error}; expected the package distributed: pip install distributed"
+            " (the extra `dask` of gradysim)"
         ) from error
 
 
 @contextlib.contextmanager
 def workers_of(options: RunOptions) -> Iterator[Workers | None]:
-    """Connect to the workers of --executor; None for processes of this machine. Raises ConfigError."""
-    if options.executor != "dask" or options.scheduler is None:
+    """Connect to the workers of --executor; None for processes of this machine. Raises ConfigError.
+
+    Without --scheduler, they are threads of this process. Each group has a process, which ends with this one.
+    """
+    if options.executor != "dask":
         yield None
         return
-    from distributed import Client
+    import distributed
 
     from gradysim.scenario.errors import ConfigError
 
-    try:
-        client: Any = Client(options.scheduler, timeout=_CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
-    except (OSError, ValueError) as error:
-        raise ConfigError(
-            f"--scheduler {options.scheduler}: {error}; expected the address of a Dask scheduler"
-        ) from error
-    with client:
-        yield Workers(client.get_executor(pure=False), lambda: sum(client.nthreads().values()))
+    dask: Any = distributed  # its classes are not typed
+    for logger in ("distributed", "distributed.client"):  # the command reports a lost cluster
+        logging.getLogger(logger).setLevel(logging.CRITICAL)
+    with contextlib.ExitStack() as connection:
+        where = options.scheduler
+        name = f"--scheduler {where}"
+        if where is None:
+            name = "--executor dask"
+            where = connection.enter_context(
+                dask.LocalCluster(
+                    n_workers=options.jobs,
+                    threads_per_worker=1,
+                    processes=False,
+                    memory_limit=0,
+                    dashboard_address=None,
+                )
+            )
+            workers = f"{options.jobs} worker{'s' * (options.jobs > 1)}"
+            print(f"{name}: {workers} on this machine, as no --scheduler is given", file=sys.stderr)
+        try:
+            client = dask.Client(where, timeout=_ANSWERS_WITHIN_S, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise ConfigError(f"{name}: {error}; expected the address of a Dask scheduler") from error
+        connection.enter_context(client)
+        yield _DaskWorkers(client, name)

@@ -2,6 +2,7 @@
 
 A worker gets the name of the file, the options and the numbers of the runs. It reads the file itself, so that
 protocols need not be pickled. The process is a fresh one, since a worker may have threads and cannot fork.
+Ctrl-C at a terminal does not reach it: `press` does.
 """
 
 import os
@@ -10,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Sequence
 from concurrent.futures import CancelledError
@@ -23,8 +25,17 @@ from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import RunOptions
 from gradysim.cli.run_all import may_others_go_on
 from gradysim.cli.run_task import LineStart, Reported, RunTask, import_what_runs_use
-from gradysim.cli.runner import ForkExecutor, WorkerError
+from gradysim.cli.runner import ForkExecutor, WorkerError, blocked
 from gradysim.cli.runs import check
+
+KILLING = 3
+"""Number of presses after which no process goes on."""
+
+_lock = threading.Lock()
+_processes: dict[subprocess.Popen[bytes], str] = {}
+"""Running groups, and the commands that they belong to."""
+_presses: dict[str, int] = {}
+"""How often Ctrl-C was pressed for commands that begin no more runs."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +51,7 @@ class Group:
         directory: Working directory of the command.
         columns: Width of its terminal; None without one.
         stop_at_s: Time of --stop-after, in seconds since the epoch.
+        command: Identifies the command.
     """
 
     file: Path
@@ -50,6 +62,7 @@ class Group:
     directory: str
     columns: int | None
     stop_at_s: float | None
+    command: str
 
     @staticmethod
     def of(
@@ -57,7 +70,8 @@ class Group:
     ) -> "Group":
         """Return a group without runs of the command in this process, which ends in `left_s` seconds."""
         stop_at_s = None if left_s is None else time.time() + left_s
-        return Group(file, options, (), first, line, os.getcwd(), width_of_terminal(), stop_at_s)
+        command = os.urandom(8).hex()
+        return Group(file, options, (), first, line, os.getcwd(), width_of_terminal(), stop_at_s, command)
 
 
 @dataclass(frozen=True)
@@ -87,24 +101,50 @@ class GroupResult:
 
 
 def compute(group: Group) -> GroupResult:
-    """Compute a group in a separate process, which ends with this one.
+    """Compute a group in a separate process, which ends with this one. After a `press` no run begins.
 
     Raises RuntimeError if the process fails.
     """
     columns = {} if group.columns is None else {"COLUMNS": str(group.columns)}
-    process = subprocess.run(
-        [sys.executable, "-P", "-c", "from gradysim.cli.group import main; main()"],
-        input=pickle.dumps((os.getpid(), group)),
-        capture_output=True,
-        cwd=group.directory,
-        env={**os.environ, **columns},
-        check=False,
-    )
+    with _lock, blocked(signal.SIGINT):  # until the process can handle it
+        if group.command in _presses:
+            return GroupResult({}, 0.0)
+        process = subprocess.Popen(
+            [sys.executable, "-P", "-c", "from gradysim.cli.group import main; main()"],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            cwd=group.directory,
+            env={**os.environ, **columns},
+            process_group=0,
+        )
+        _processes[process] = group.command
+    with process:
+        try:
+            returned, error_output = process.communicate(pickle.dumps((os.getpid(), group)))
+        finally:
+            process.kill()
+            del _processes[process]
     if process.returncode:
-        printed = process.stderr.decode("utf-8", errors="replace").strip()
+        printed = error_output.decode("utf-8", errors="replace").strip()
         raise RuntimeError(f"the process of a group exited with status {process.returncode}\n{printed}")
-    result: GroupResult = pickle.loads(process.stdout)
+    result: GroupResult = pickle.loads(returned)
     return result
+
+
+def press(command: str, presses: int) -> None:
+    """Begin no more runs of a command in this process, and pass on the presses of its Ctrl-C so far.
+
+    Runs under way take each new press as those of `ForkExecutor` do. `KILLING` presses kill their processes.
+    """
+    with _lock:
+        before = _presses.get(command, 0)
+        _presses[command] = max(presses, before)
+        for process in [process for process, of in _processes.items() if of == command]:
+            if presses >= KILLING:
+                process.kill()
+            elif presses > before:
+                process.send_signal(signal.SIGINT)
 
 
 def width_of_terminal() -> int | None:
@@ -140,9 +180,12 @@ def _computed(group: Group) -> GroupResult:
         import_what_runs_use(options)
         left_s = None if group.stop_at_s is None else group.stop_at_s - time.time()
         begin_s = time.monotonic()
-        with StopOnInterrupt(left_s) as interrupt, ForkExecutor(1, interrupt, captures=True) as executor:
+        interrupt = StopOnInterrupt(left_s)
+        with ForkExecutor(1, interrupt, captures=True) as executor, interrupt:
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
             task = RunTask(study, options, build, interrupt, group.first, group.line)
             ended = _all_ended(group.numbers, task, executor)
+            signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])  # it has a result to return
     return GroupResult(ended, time.monotonic() - begin_s)
 
 

@@ -4,12 +4,13 @@ A task of a cluster costs milliseconds in the scheduler and a process at the wor
 few seconds, so that this does not matter. Towards the end groups become smaller: no worker waits for long.
 """
 
+import time
 from collections import deque
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from dataclasses import replace
 
 from gradysim.cli.executors import Workers
-from gradysim.cli.group import Group, GroupResult, compute
+from gradysim.cli.group import KILLING, Group, GroupResult, compute, press
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.run_all import may_others_go_on
 from gradysim.cli.run_task import Reported
@@ -24,7 +25,8 @@ _SHORTEST_GROUP_S = 2.0
 _GROUPS_PER_WORKER = 2
 """One that is computed, and the next one."""
 
-_POLL_S = 0.5
+_POLL_S = 0.1
+"""Wall time in seconds until Ctrl-C is passed on."""
 
 
 class GroupExecutor:
@@ -44,11 +46,13 @@ class GroupExecutor:
         Args:
             workers: They compute the groups. The caller shuts their executor down.
             group: What all groups have in common. Each gets its own numbers.
-            interrupt: Ctrl-C: afterwards no group starts.
+            interrupt: Ctrl-C: afterwards no run starts. Those under way get each press.
         """
         self._workers = workers
         self._group = group
         self._interrupt = interrupt
+        interrupt.workers = ()  # the groups are the workers, and `advance` forwards to them
+        self._is_over = False
         self._waiting: deque[tuple[int, RunFuture[Reported]]] = deque()
         self._groups: dict[Future[GroupResult], dict[int, RunFuture[Reported]]] = {}
         self._run_s: float | None = None
@@ -59,14 +63,27 @@ class GroupExecutor:
         self._waiting.append((number, future))
         return future
 
+    def close(self) -> None:
+        """Kill the groups that have not ended."""
+        if self._groups:
+            self._workers.call_each(press, self._group.command, KILLING)
+
     def advance(self) -> None:
-        """Submit groups while there is room, and wait for the end of one, or for Ctrl-C."""
-        if self._interrupt.should_stop():
-            self._cancel()
-        workers = max(1, self._workers.count())
+        """Submit groups while there is room, and wait for the end of one, or for Ctrl-C.
+
+        Raises WorkersLostError, and KeyboardInterrupt if no worker can take the Ctrl-C.
+        """
+        workers = self._workers.count()
+        if self._is_over or self._interrupt.should_stop():
+            self._stop()
+            if not workers and self._interrupt.should_stop():
+                raise KeyboardInterrupt
         while self._waiting and len(self._groups) < _GROUPS_PER_WORKER * workers:
             self._submit_group(self._next_size(workers))
-        wait(self._groups, _POLL_S, FIRST_COMPLETED)
+        if self._groups:
+            wait(self._groups, _POLL_S, FIRST_COMPLETED)
+        else:
+            time.sleep(_POLL_S)
         for group in [group for group in self._groups if group.done()]:
             self._finish(group, self._groups.pop(group))
 
@@ -93,8 +110,8 @@ class GroupExecutor:
         """Pass on the results of a group that has ended."""
         try:
             result = group.result()
-        except CancelledError:
-            result = GroupResult({}, 0)
+        except CancelledError:  # not by this class
+            raise self._workers.lost() from None
         except Exception as error:  # of the group's process, or of the executor
             for future in futures.values():
                 future.set_exception(WorkerError(str(error), None))
@@ -112,12 +129,13 @@ class GroupExecutor:
             else:
                 future.set_result(ended.outcome)
             if not may_others_go_on(future):
-                self._cancel()
+                self._is_over = True
 
-    def _cancel(self) -> None:
-        """Cancel the runs that wait, and the groups that have not started."""
-        for _, future in self._waiting:
-            future.cancel()
-        self._waiting.clear()
-        for group in self._groups:
-            group.cancel()
+    def _stop(self) -> None:
+        """Let no more run start, also at new workers, and pass on how often Ctrl-C was pressed."""
+        while self._waiting:
+            self._waiting.popleft()[1].cancel()
+        for group in [group for group in self._groups if self._workers.cancel(group)]:
+            for future in self._groups.pop(group).values():
+                future.set_exception(CancelledError())
+        self._workers.call_each(press, self._group.command, self._interrupt.presses)

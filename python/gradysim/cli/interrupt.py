@@ -84,10 +84,15 @@ class StopOnInterrupt:
         self._previous: dict[signal.Signals, Any] = {}
         self._terminals: list[int] = []
 
+    @property
+    def presses(self) -> int:
+        """Number of presses."""
+        return max(self._presses.values(), default=0)
+
     def should_stop(self) -> bool:
         """Return whether there was a press. A process that a callback forked ends here."""
         self._end_if_forked()
-        return self._count() > 0
+        return self.presses > 0
 
     def become_worker(self) -> None:
         """Handle presses in a process forked from the command, which has the other end."""
@@ -140,19 +145,16 @@ class StopOnInterrupt:
         for number, handler in self._previous.items():
             signal.signal(number, handler)
 
-    def _count(self) -> int:
-        return max(self._presses.values(), default=0)
-
     def _end_if_forked(self) -> None:
         """Exit if this is a process that a protocol's callback forked. Its parent executes the run."""
         if os.getpid() != self._pid:
             os._exit(OK)
 
     def _on_signal(self, number: int, _frame: FrameType | None) -> None:
-        before = self._count()
+        before = self.presses
         self._presses[number] = 1 if number in _ONCE else self._presses[number] + 1
         self._leave_dead_terminals()
-        if self._count() > before:  # otherwise another sender has reported this press
+        if self.presses > before:  # otherwise another sender has reported this press
             self._press(number, before + 1)
 
     def _press(self, number: int, presses: int) -> None:
@@ -197,7 +199,7 @@ class StopOnInterrupt:
         os._exit(self.exit_code)
 
     def _on_alarm(self, number: int, frame: FrameType | None) -> None:
-        self._presses[number] = self._count()
+        self._presses[number] = self.presses
         self._on_signal(number, frame)
 
     def _leave_dead_terminals(self) -> None:

@@ -167,13 +167,13 @@ class RunOptions:
     confidence interval is below 5 % of its mean, for each combination of values. `repeat` is the most."""
 
     jobs: Annotated[Integer, Parameter(alias="-j")] = 1
-    """Number of runs at the same time, by processes of this machine."""
+    """Number of runs at the same time, by processes of this machine or workers of --executor dask on it."""
 
     executor: Literal["processes", "dask"] = "processes"
     """What computes the runs: processes of this machine, or the workers of a Dask cluster."""
 
     scheduler: str | None = None
-    """Address of the Dask scheduler, such as tcp://10.0.0.1:8786."""
+    """Address of the Dask scheduler, such as tcp://10.0.0.1:8786; without it, --jobs workers start here."""
 
     stop_after: str | None = None
     """Wall time such as 55min, after which the command stops as after Ctrl-C. The exit code is 5 then."""

@@ -6,7 +6,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack, nullcontext, redirect_stdout
+from contextlib import ExitStack, closing, nullcontext, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -92,7 +92,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
                     remove_left_over_files(options.directory)
                 return OK
             if executor is not None:
-                workers: Workers | None = Workers(executor, lambda: options.jobs)
+                workers: Workers | None = Workers(executor, options.jobs)
             else:
                 workers = connection.enter_context(workers_of(options))
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
@@ -176,8 +176,9 @@ def _execute(
             with ForkExecutor(options.jobs, interrupt) as forks:
                 code = _run_rounds(prepared, options, lambda place: forks.submit(task, place))
         else:
-            groups = GroupExecutor(workers, Group.of(file, options, first, line, left_s), interrupt)
-            code = _run_rounds(prepared, options, lambda place: groups.submit(study.numbers[place]))
+            group = Group.of(file, options, first, line, left_s)
+            with closing(GroupExecutor(workers, group, interrupt)) as groups:
+                code = _run_rounds(prepared, options, lambda place: groups.submit(study.numbers[place]))
         if options.is_writer:
             remove_lock_file(options.directory)
     if code == INTERRUPTED:

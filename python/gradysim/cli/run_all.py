@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.cli.errors import (
     FAILED,
+    INCOMPLETE,
     INTERRUPTED,
     LOCKED,
     MISTAKE,
@@ -38,6 +39,8 @@ def run_all(study: "Study", left: Sequence[int], submit: "Callable[[int], Future
     """
     from concurrent.futures import CancelledError
 
+    from gradysim.cli.executors import WorkersLostError
+
     submitted: deque[tuple[int, Future[Reported]]] = deque()
     remaining = iter(left)
     is_over = False
@@ -63,29 +66,43 @@ def run_all(study: "Study", left: Sequence[int], submit: "Callable[[int], Future
 
     codes: dict[int, int] = {}
     output_error: OSError | None = None
+
+    def show(place: int, future: "Future[Reported]") -> None:
+        nonlocal output_error
+        number = study.numbers[place]
+        with suppress(CancelledError):
+            codes[number], error = _shown(future, f"{study.config} run {number}")
+            if error is not None and output_error is None:
+                output_error = error
+                abandon_output()
+                cancel()
+
+    lost: WorkersLostError | None = None
     try:
         submit_more()
         while submitted:
-            place, future = submitted[0]
-            number = study.numbers[place]
-            with suppress(CancelledError):
-                codes[number], error = _shown(future, f"{study.config} run {number}")
-                if error is not None and output_error is None:
-                    output_error = error
-                    abandon_output()
-                    cancel()
+            show(*submitted[0])
             submitted.popleft()
             submit_more()
     except KeyboardInterrupt:  # the third one
         cancel()
+    except WorkersLostError as error:
+        cancel()
+        lost = error
+    under_way = [study.numbers[place] for place, future in submitted if future.running()]
+    for place, future in submitted:
+        if future.done():
+            show(place, future)
     complete = len(codes) == len(left) and not any(codes.values())
     with suppress(OSError):  # standard error may fail, too
         if output_error is not None and not (complete and isinstance(output_error, BrokenPipeError)):
             print(f"standard output: {output_error.strerror}", file=sys.stderr)
         if not complete:
-            _print_unfinished(study, left, codes)
+            _print_unfinished(study, left, codes, under_way, lost)
     if output_error is not None:
         return OK if complete and isinstance(output_error, BrokenPipeError) else MISTAKE
+    if lost is not None:
+        return INCOMPLETE
     return OK if complete else _exit_code(list(codes.values()), len(left))
 
 
@@ -138,28 +155,46 @@ def _shown(future: "Future[Reported]", name: str) -> "Reported":
 _ENDED = {INTERRUPTED: "was interrupted", LOCKED: "was left out"}
 
 
-def _print_unfinished(study: "Study", left: Sequence[int], codes: Mapping[int, int]) -> None:
-    """Print to standard error which of several runs are missing; `codes` are those of the started runs."""
+def _print_unfinished(
+    study: "Study",
+    left: Sequence[int],
+    codes: Mapping[int, int],
+    under_way: Sequence[int],
+    lost: Exception | None,
+) -> None:
+    """Print to standard error which of several runs are missing, in one line that begins with `lost`.
+
+    `codes` are those of the runs that have ended. Those `under_way` were killed, or their end is not known.
+    """
+    line = [] if lost is None else [str(lost)]
     if len(left) > 1:
         numbers = [study.numbers[place] for place in left]
         done = [number for number in numbers if codes.get(number) == OK]
-        missing = [number for number in numbers if number not in codes]
+        known = {*codes, *under_way}
+        missing = [number for number in numbers if number not in known]
         ended = {number: _ENDED.get(code, "failed") for number, code in sorted(codes.items()) if code != OK}
-        print(text_of_unfinished(study.config, done, ended, missing), file=sys.stderr)
+        line.append(text_of_unfinished(study.config, done, ended, missing, under_way))
+    if line:
+        print("; ".join(line), file=sys.stderr)
 
 
 def text_of_unfinished(
-    config: str, done: Sequence[int], ended: Mapping[int, str], left: Sequence[int]
+    config: str,
+    done: Sequence[int],
+    ended: Mapping[int, str],
+    left: Sequence[int],
+    under_way: Sequence[int] = (),
 ) -> str:
-    """Return which runs of `config` are done, which `ended` otherwise, and which are `left`.
+    """Return which runs of `config` are done, which `ended` otherwise, and which are `under_way` or `left`.
 
     Numbers are in increasing order. `ended` is "failed" or "was interrupted".
     """
     which = [f"run {number} {how}" for number, how in ended.items()]
-    count = len(done) + len(ended) + len(left)
+    count = len(done) + len(ended) + len(under_way) + len(left)
     which.append(f"{len(done)} of {count} runs {'is' if len(done) == 1 else 'are'} done{_numbers(done)}")
-    if left:
-        which.append(f"{len(left)} {'was' if len(left) == 1 else 'were'} not begun{_numbers(left)}")
+    for numbers, what in ((under_way, "under way"), (left, "not begun")):
+        if numbers:
+            which.append(f"{len(numbers)} {'was' if len(numbers) == 1 else 'were'} {what}{_numbers(numbers)}")
     return f"{config}: {', '.join(which)}"
 
 

@@ -149,7 +149,7 @@ class ForkExecutor(Executor):
                 printed = tuple(
                     files.enter_context(TemporaryFile()) for _ in range(2 if self._captures else 0)
                 )
-                with _blocked(*WATCHED):  # until the worker can handle them
+                with blocked(*WATCHED):  # until the worker can handle them
                     parent, pid = os.getpid(), os.fork()
                     if pid == 0:
                         self._work(_Worker(future, ours, printed), call, parent)
@@ -272,7 +272,7 @@ def _leave_files(names: Collection[str]) -> None:
 
 
 @contextlib.contextmanager
-def _blocked(*signals: signal.Signals) -> Iterator[None]:
+def blocked(*signals: signal.Signals) -> Iterator[None]:
     """Block these signals inside the block."""
     before = signal.pthread_sigmask(signal.SIG_BLOCK, signals)
     try:

@@ -6,10 +6,12 @@ import signal
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from gradysim.cli.group import Group, compute
+from gradysim.cli.errors import INTERRUPTED
+from gradysim.cli.group import KILLING, Group, compute, press
 from gradysim.cli.options import RunOptions
 from gradysim.cli.run_task import LineStart
 from gradysim.cli.runner import WorkerError
@@ -24,8 +26,8 @@ def group(folder, monkeypatch):
 
     def of(*numbers, stop_at_s=None, **options):
         run_options = RunOptions(mode="prototype", **options)
-        line = LineStart(1, 2)
-        return Group(folder / "test.ini", run_options, numbers, 0, line, os.getcwd(), None, stop_at_s)
+        file, line, name = folder / "test.ini", LineStart(1, 2), folder.name
+        return Group(file, run_options, numbers, 0, line, os.getcwd(), None, stop_at_s, name)
 
     return of
 
@@ -72,23 +74,78 @@ def test_its_data_are_plain(group):
     assert len(data) < 10_000
 
 
+NOTES = """
+import os
+from protocol import Talker
+
+GROUP = os.getpid()
+
+class Notes(Talker):
+    def handle_timer(self, timer):
+        super().handle_timer(timer)
+        if not os.path.exists("began"):
+            with open("begins", "w") as file:
+                file.write(str(GROUP))
+            os.rename("begins", "began")
+"""
+
+
+@pytest.fixture
+def endless(group, folder):
+    """A group of runs that do not end, and a function that waits for one and returns the group's process."""
+    (folder / "notes.py").write_text(NOTES)
+    began = folder / "began"
+
+    def wait_for_process():
+        wait_until(began.exists)
+        return int(began.read_text())
+
+    options = {"result_dir": folder / "out", "settings": ('*.uavs[*].protocol.class="notes.py:Notes"',)}
+    return group(0, 1, config="Endless", **options), wait_for_process
+
+
+@pytest.fixture
+def begun(endless):
+    """The future of the result of an endless group, of which a run is under way."""
+    group, wait_for_process = endless
+    with ThreadPoolExecutor(1) as executor:
+        try:
+            computing = executor.submit(compute, group)
+            wait_for_process()
+            yield computing
+        finally:
+            press(group.command, KILLING)
+
+
+def test_ctrl_c_ends_the_run_under_way_and_keeps_its_results(begun, folder):
+    press(folder.name, 1)
+    press(folder.name, 1)  # it is passed on again and again
+    ended = begun.result(60).ended
+    assert {number: run.outcome for number, run in ended.items()} == {0: (INTERRUPTED, None)}
+    assert [file.name for file in (folder / "out").glob("*.json")] == ["Endless-#0.prototype.json"]
+
+
+def test_after_ctrl_c_no_run_begins(group):
+    press(group().command, 0)
+    assert compute(group(0, 1)).ended == {}
+
+
+def test_the_third_press_kills_it(begun, folder):
+    press(folder.name, KILLING)
+    with pytest.raises(RuntimeError, match="-9"):
+        begun.result(60)
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells a process of its parent's death")
-def test_it_ends_with_its_worker(group, folder):
+def test_it_ends_with_its_worker(endless):
     code = (
         "import pickle, sys; from gradysim.cli.group import compute; compute(pickle.load(sys.stdin.buffer))"
     )
-    began = folder / "began"
-    (folder / "notes.py").write_text(
-        "import os\nfrom protocol import Talker\nGROUP = os.getpid()\n"
-        "class Notes(Talker):\n    def initialize(self):\n"
-        f"        super().initialize()\n        open({str(began)!r}, 'w').write(str(GROUP))\n"
-    )
-    endless = group(0, config="Endless", settings=('*.uavs[*].protocol.class="notes.py:Notes"',))
+    group, wait_for_process = endless
     worker = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, env=environment())
-    worker.stdin.write(pickle.dumps(endless))
+    worker.stdin.write(pickle.dumps(group))
     worker.stdin.close()
-    wait_until(lambda: began.exists() and began.read_text() != "")
+    process = f"/proc/{wait_for_process()}"
     worker.send_signal(signal.SIGKILL)
     worker.wait()
-    process = f"/proc/{began.read_text()}"
     wait_until(lambda: not os.path.exists(process), 5)

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.cli import group_executor
-from gradysim.cli.executors import Workers
-from gradysim.cli.group import Ended, Group, GroupResult
+from gradysim.cli.executors import Workers, WorkersLostError
+from gradysim.cli.group import Ended, Group, GroupResult, press
 from gradysim.cli.group_executor import GroupExecutor
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import RunOptions
@@ -51,7 +51,7 @@ def groups(by_hand, monkeypatch):
     monkeypatch.setattr(group_executor, "_POLL_S", 0.0)
     group = Group.of(Path("test.ini"), RunOptions(), 0, None, None)
     with StopOnInterrupt() as interrupt:
-        yield GroupExecutor(Workers(by_hand, lambda: 2), group, interrupt)
+        yield GroupExecutor(Workers(by_hand, 2), group, interrupt)
 
 
 def test_groups_have_one_run_first_and_five_seconds_later(groups, by_hand):
@@ -103,6 +103,43 @@ def test_after_ctrl_c_no_group_starts(groups, by_hand):
     assert by_hand.groups == []
     with pytest.raises(CancelledError):
         futures[0].result()
+
+
+class Elsewhere(Workers):
+    """Workers of a cluster, which may have begun what it cancels. They end with a press."""
+
+    def __init__(self, executor):
+        super().__init__(executor, 2)
+        self.presses = []
+
+    def cancel(self, group):
+        return False
+
+    def call_each(self, function, *arguments):
+        self.presses.append(arguments[1])
+        if function is press and self.executor.waiting:
+            self.executor.waiting.pop(0)[1].set_result(GroupResult({}, 0.0))
+
+
+def test_groups_of_a_cluster_are_not_canceled_but_get_each_press(by_hand):
+    group = Group.of(Path("test.ini"), RunOptions(), 0, None, None)
+    workers = Elsewhere(by_hand)
+    with StopOnInterrupt() as interrupt:
+        groups = GroupExecutor(workers, group, interrupt)
+        future = groups.submit(0)
+        groups.advance()
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(CancelledError):
+            future.result()
+    assert workers.presses == [1]
+
+
+def test_a_group_that_the_executor_cancels_is_lost(groups, by_hand):
+    future = groups.submit(0)
+    groups.advance()
+    by_hand.waiting[0][1].cancel()
+    with pytest.raises(WorkersLostError):
+        future.result()
 
 
 def test_a_group_that_fails_fails_its_runs(groups, by_hand):

@@ -9,6 +9,11 @@ from gradysim.cli.run import run_file
 from gradysim.cli.run_all import text_of_unfinished
 
 
+def test_runs_under_way_are_neither_done_nor_not_begun() -> None:
+    line = text_of_unfinished("X", [0], {}, [3, 4], under_way=[1, 2])
+    assert line == "X: 1 of 5 runs is done (0), 2 were under way (1..2), 2 were not begun (3..4)"
+
+
 @pytest.mark.parametrize(
     ("done", "ended", "left", "text"),
     [

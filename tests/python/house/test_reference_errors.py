@@ -16,7 +16,14 @@ from gradysim.cli import errors
 PAGE = "docs/reference/errors.md"
 PACKAGE = Path("python/gradysim")
 ENTRY = re.compile(r"^- \*\*`(\w+)`\*\* \(`([\w.]+)`\):", re.MULTILINE)
-INTERNAL = {"WorkerError", "RunLockedError", "BadValue", "BeingLoadedError", "NoSuchNodeError"}
+INTERNAL = {
+    "WorkerError",
+    "WorkersLostError",
+    "RunLockedError",
+    "BadValue",
+    "BeingLoadedError",
+    "NoSuchNodeError",
+}
 """Exceptions that do not reach users of the API: the command reports them, or they become others."""
 
 

@@ -12,6 +12,9 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
+from gradysim.cli.executors import WITHOUT_WORKERS_S
+from gradysim.cli.run_all import text_of_unfinished
+
 GUIDE = "docs/how-to/run-on-a-cluster.md"
 
 CodeBlocks = Callable[[str, str], list[str]]
@@ -71,6 +74,17 @@ def test_the_script_of_a_job_runs(code_blocks: CodeBlocks, shell: Shell, swarm: 
     (swarm / "study.sh").write_text(script)
     assert "requeue" not in shell(command, swarm)
     assert len(list((swarm / "results").iterdir())) == 5
+
+
+def test_what_dask_prints_is_as_shown(code_blocks: CodeBlocks) -> None:
+    *_, here, _, lost = code_blocks(GUIDE, "text")
+    assert here.splitlines()[-1] == "--executor dask: 2 workers on this machine, as no --scheduler is given"
+    runs = text_of_unfinished("Study", range(12), {}, [18, 19], under_way=range(12, 18))
+    assert lost.endswith(f"; {runs}\n")
+
+
+def test_the_patience_is_as_the_guide_says(root: Path) -> None:
+    assert f"no worker for {WITHOUT_WORKERS_S:g} s" in (root / GUIDE).read_text()
 
 
 @pytest.mark.verify
