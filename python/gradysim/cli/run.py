@@ -167,7 +167,10 @@ def _execute(
             " commands stay there",
             file=sys.stderr,
         )
-    with StopOnInterrupt(left_s) as interrupt:
+    interrupt = StopOnInterrupt(left_s)
+    if workers is None:
+        interrupt.workers = ()  # no process executes runs yet, and this one never does
+    with interrupt:
         if workers is None:
             is_alone = _has_bar(options) and options.jobs == 1 and not options.trace
             terminal = error_terminal() if is_alone else None

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from gradysim.cli import run_task
 from gradysim.cli.errors import INCOMPLETE
 from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.options import RunOptions
 from python.cli.command import both_modes, run_gradysim
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="it has no timer")
@@ -61,6 +63,15 @@ def test_no_run_starts_when_the_time_is_over(gradysim) -> None:
     done = gradysim("run", "test.ini", "--mode", "prototype", "--stop-after", "1us")
     assert (done.returncode, done.stdout) == (5, "")
     assert "3 were not begun (0..2)" in done.stderr
+
+
+def test_a_machine_may_be_slow_to_start_the_first_run(gradysim, monkeypatch) -> None:
+    def press_once_more(_: RunOptions) -> None:
+        signal.raise_signal(signal.SIGALRM)
+
+    monkeypatch.setattr(run_task, "import_what_runs_use", press_once_more)
+    done = gradysim("run", "test.ini", "--mode", "prototype", "--stop-after", "1us")
+    assert (done.returncode, done.stdout) == (5, "")
 
 
 @pytest.mark.parametrize("text", ["10", "0s", "1kB", "-1s", "9999999h"])
