@@ -6,13 +6,19 @@ from collections.abc import Iterable, Mapping, Sequence
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.runs import NumberedRuns
-from gradysim.scenario.sweep import LABELS, PREDEFINED, REPETITION, IterationVariable, variables_in
+from gradysim.scenario.sweep import (
+    LABELS,
+    OF_ALL_VALUES,
+    PREDEFINED,
+    REPETITION,
+    IterationVariable,
+    variables_in,
+)
 
 _MAKES_NODES = re.compile(r"(?:.*\.)?(?:num[A-Z]\w*|count|class|typename)", re.ASCII)
 """Keys whose values say which other lines are read: numbers of nodes, protocols and models."""
 
 _OF_EACH_RUN = ("runnumber", "seedset")
-_OF_ALL_VALUES = ("iterationvars", "iterationvarsf", "iterationvarsd")
 
 
 class Coverage:
@@ -27,17 +33,26 @@ class Coverage:
         self,
         lines: Sequence[Entry],
         options: Mapping[str, Entry],
+        checked: Iterable[Entry],
         variables: Sequence[IterationVariable],
         runs: NumberedRuns,
     ) -> None:
-        """Start before the first of `runs`. `lines` and `options`, those in force, have variables."""
+        """Start before the first of `runs`.
+
+        Args:
+            lines: All lines. Their values have variables.
+            options: The options in force, by name.
+            checked: Those of the options whose values may be wrong in some runs.
+            variables: All variables.
+            runs: The wanted runs.
+        """
         self._places = runs.places
         self._options = options
         self._names = [variable.name for variable in variables]
         parameters = [line for line in lines if not is_option(line) and not is_ignored(line)]
         of_lines = [self._read_by(line) for line in parameters]
         choices = [self._read_by(line) for line in parameters if _MAKES_NODES.fullmatch(line.key)]
-        of_options = [self._read_by(entry) for key, entry in options.items() if key != "seed-set"]
+        of_options = map(self._read_by, checked)
         combinations = runs.combinations
         self._of_network = combinations.strides(self._known(set().union(*of_lines)))
         self._differs_always = any(name in _OF_EACH_RUN for names in of_lines for name in names)
@@ -53,7 +68,7 @@ class Coverage:
             label = self._options.get(f"{name}-label") if name in LABELS else None
             if label is not None and label not in within:
                 names |= self._read_by(label, label, *within)
-            elif LABELS.get(name, name) in _OF_ALL_VALUES:
+            elif LABELS.get(name, name) in OF_ALL_VALUES:
                 names.update(self._names)
             else:
                 names.add(LABELS.get(name, name))

@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import Any, overload
 
 from gradysim.scenario.coverage import Coverage
-from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector, Source
+from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector
 from gradysim.scenario.ini import Entry, read_ini, read_overrides
 from gradysim.scenario.lookup import is_ignored, is_option, network_name, options_in_force, read_scalar
 from gradysim.scenario.networks import Networks
+from gradysim.scenario.parameter_types import Scalar
 from gradysim.scenario.runs import (
     NumberedRun,
     UnreadVariables,
@@ -27,6 +28,7 @@ from gradysim.scenario.sweep import (
     REPETITION,
     depends_on_run,
     free_text,
+    is_free_text_in_all_runs,
     name_iterations,
     run_variables,
     substitute,
@@ -36,6 +38,9 @@ from gradysim.scenario.sweep import (
     with_labels,
 )
 from gradysim.scenario.unknown_keys import NoSuchNodeError, check_option
+
+_READ_IN_EACH_RUN = ("sim-time-limit", "vector-record-interval", "description")
+"""Options that are fields of a Scenario."""
 
 _CHECKED_IN_FULL = 100
 """Networks of a study that are read and built before its first run, all combinations of values."""
@@ -135,12 +140,18 @@ class Study(Sequence[Scenario]):
         self._lines = tuple(lines)
         read = [line for line in lines if not is_ignored(line)]
         self._names = set[str]().union(*(variables_in(line.text) for line in read))
-        self._options_differ = any(map(depends_on_run, self._options.values()))
+        self._differing = {
+            name: option
+            for name in _READ_IN_EACH_RUN
+            if (option := self._options.get(name)) is not None
+            and depends_on_run(option)
+            and not (name == "description" and is_free_text_in_all_runs(option, variables))
+        }
         self._hashed = entries_of_the_hash(lines)
         self._hashes: dict[tuple[str, ...], str] = {}
         instead = what_to_run_instead(ini, config, self._sections, names.config)
         self._networks = Networks(lines, file.parent, instead, source)
-        self._coverage = Coverage(lines, self._options, variables, self._runs)
+        self._coverage = Coverage(lines, self._options, self._differing.values(), variables, self._runs)
         self._checked: list[int] = []
         self._unread: tuple[UnreadVariables, ...] = ()
         self.numbers = self._runs.numbers
@@ -199,9 +210,12 @@ class Study(Sequence[Scenario]):
             error_count = len(errors.errors)
             with errors.collecting():
                 values = self._variables(run, self.seeds[index], self._names)
-                if index == 0 or self._options_differ:
-                    with errors.collecting():
+                with errors.collecting():
+                    if index == 0:
                         self._settings(values)
+                    else:
+                        for name in self._differing:
+                            self._option(name, values)
                 if len(self._checked) >= _MOST_CHECKED:
                     self._networks.check_values(values)
                 elif not is_checked:
@@ -303,12 +317,22 @@ class Study(Sequence[Scenario]):
 
     def _settings(self, variables: Mapping[str, str]) -> dict[str, Any]:
         """Return the fields of a Scenario that are options. Raises ConfigError."""
-        options = {name: substitute(entry, variables) for name, entry in self._options.items()}
+        limit, interval, description = (self._option(name, variables) for name in _READ_IN_EACH_RUN)
+        if limit is None:
+            problem = f"`{self.config}` has no time limit"
+            raise ConfigError(problem, self._source, expected="`sim-time-limit = 1h`")
         return {
-            "sim_time_limit_s": _sim_time_limit_s(options, self.config, self._source),
-            "vector_record_interval_s": _vector_record_interval_s(options),
-            "description": _description(options),
+            "sim_time_limit_s": float(limit),
+            "vector_record_interval_s": float(interval or 0.0),
+            "description": description or "",
         }
+
+    def _option(self, name: str, variables: Mapping[str, str]) -> Scalar | None:
+        """Return the value of an option; None without it. Raises ConfigError."""
+        if name not in self._options:
+            return None
+        entry = substitute(self._options[name], variables)
+        return free_text(entry) if name == "description" else read_scalar(entry, OPTIONS[name])
 
     def _hash(self, run: NumberedRun, seed: int) -> str:
         """Return the hash of the settings of a run: no more of it is in the hash than its iterations."""
@@ -318,23 +342,6 @@ class Study(Sequence[Scenario]):
             values = with_labels(values, seed, self._options, for_hash=True)
             self._hashes[key] = settings_hash(substituted(self._hashed, values))
         return self._hashes[key]
-
-
-def _sim_time_limit_s(options: Mapping[str, Entry], config: str, source: Source) -> float:
-    limit = options.get("sim-time-limit")
-    if limit is None:
-        raise ConfigError(f"`{config}` has no time limit", source, expected="`sim-time-limit = 1h`")
-    return float(read_scalar(limit, OPTIONS["sim-time-limit"]))
-
-
-def _vector_record_interval_s(options: Mapping[str, Entry]) -> float:
-    interval = options.get("vector-record-interval")
-    return float(read_scalar(interval, OPTIONS["vector-record-interval"])) if interval else 0.0
-
-
-def _description(options: Mapping[str, Entry]) -> str:
-    description = options.get("description")
-    return free_text(description) if description else ""
 
 
 def runs_of(

@@ -46,6 +46,9 @@ LABELS = {"experiment": "configname", "measurement": "iterationvars", "replicati
 
 LABEL_OPTIONS = tuple(f"{name}-label" for name in LABELS)
 
+OF_ALL_VALUES = {"iterationvars", "iterationvarsf", "iterationvarsd"}
+"""Variables that have the values of all iteration variables."""
+
 _SAME_IN_ALL_RUNS = ("configname", "inifile", "network")
 _HIDDEN_IN_HASH = {name: f"${{{name}}}" for name in ("runnumber", REPETITION, "seedset", "inifile")}
 """Placeholders for variables in a settings hash: runs that differ only in these have the same settings."""
@@ -333,6 +336,21 @@ def with_labels(
 def free_text(entry: Entry) -> str:
     """Return the string of an option that needs no quotes, as in OMNeT++."""
     return str(read_scalar(entry, OPTIONS[entry.key])) if entry.text.startswith('"') else entry.text
+
+
+def is_free_text_in_all_runs(entry: Entry, variables: Iterable[IterationVariable]) -> bool:
+    """Return whether an option that needs no quotes is valid in all runs if it is in the first one.
+
+    It is if it is one string and no value can end that, since no value has a quote or a backslash.
+    """
+    names = variables_in(entry.text)
+    if names & LABELS.keys() or (entry.text.startswith('"') and not is_quoted(entry.text)):
+        return False
+    used = [each for each in variables if each.name in names or names & OF_ALL_VALUES]
+    longest = sum(len(each.name) + max(map(len, each.values)) + len(", $=") for each in used)
+    return longest * len(_VARIABLE.findall(entry.text)) + len(entry.text) <= MOST_CHARACTERS and not any(
+        character in "".join(each.values) for each in used for character in '"\\'
+    )
 
 
 def substitute(entry: Entry, variables: Mapping[str, str]) -> Entry:

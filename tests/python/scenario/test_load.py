@@ -10,6 +10,7 @@ from gradysim.scenario.load import Study
 from gradysim.scenario.networks import read_network
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.unknown_keys import NoSuchNodeError
+from python.calls import count_calls
 from python.scenario.conftest import BASE
 from python.thorough import some
 
@@ -500,6 +501,35 @@ def test_a_wrong_value_is_found_wherever_it_stands_in_a_sweep(folder: Any, place
     with pytest.raises(ConfigError) as caught:
         checked(folder, f"*.uavs[*].mobility.speed = ${{{', '.join(speeds)}}}\n")
     assert (caught.value.line, caught.value.key) == (6, "*.uavs[*].mobility.speed")
+
+
+@pytest.mark.parametrize(
+    "added",
+    [
+        'description = "run ${{x=1..{0}}} of {0}"\n',
+        "description = run ${{x=1..{}}} of many\n",
+        'description = "${{iterationvars}}"\nexperiment-label = ${{x=1..{}}}\n',
+    ],
+)
+def test_descriptions_are_not_read_before_their_runs_if_all_are_right(folder: Any, added: str) -> None:
+    few, many = (count_calls(lambda size=size: checked(folder, added.format(size))) for size in (1000, 2000))
+    assert many - few < 20 * 1000
+
+
+@pytest.mark.parametrize(
+    "text",
+    ['"is ${x=1, 2, "3"}"', '${x=1, 2, "3" "4"}', '"is" + ${x="1", "2", 3}'],
+)
+def test_a_description_that_a_value_makes_wrong_is_found(folder: Any, text: str) -> None:
+    with pytest.raises(ConfigError) as caught:
+        checked(folder, f"description = {text}\n")
+    assert (caught.value.line, caught.value.key) == (6, "description")
+
+
+def test_a_description_that_the_values_make_too_long_is_found(folder: Any) -> None:
+    with pytest.raises(ConfigError) as caught:
+        checked(folder, f"description = ${{x=1, {'9' * 100_000}}}{'${x}' * 200}\n")
+    assert (caught.value.line, caught.value.key) == (6, "description")
 
 
 def test_all_wrong_values_of_several_sweeps_are_found_before_the_first_run(folder: Any) -> None:
