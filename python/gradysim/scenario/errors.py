@@ -4,7 +4,7 @@
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -137,6 +137,9 @@ def _restored(
 class ConfigErrors(ConfigError):  # noqa: N818 - several of them
     """All errors of a file, one for each entry or part of one. As a single error, it is the first.
 
+    Of a file whose name does not end in .ini, it has the first error only. Such a file may be none of the
+    user's, `include /etc/shadow`, and errors quote lines.
+
     Attributes:
         errors: The errors, by file and line.
     """
@@ -146,7 +149,7 @@ class ConfigErrors(ConfigError):  # noqa: N818 - several of them
         unique: dict[object, ConfigError] = {}
         for error in errors:
             unique.setdefault(error.source if error.key else str(error), error)
-        self.errors = sorted(unique.values(), key=_place)
+        self.errors = list(_but_one_of_other_files(sorted(unique.values(), key=_place)))
         first = self.errors[0]
         super().__init__(first.problem, first.source, **first._details())
 
@@ -155,6 +158,27 @@ class ConfigErrors(ConfigError):  # noqa: N818 - several of them
 
     def __reduce__(self) -> tuple[object, ...]:
         return ConfigErrors, (self.errors,)
+
+
+def _but_one_of_other_files(errors: Iterable[ConfigError]) -> Iterator[ConfigError]:
+    """Yield errors, but only the first one of each file that is not an .ini file."""
+    seen: set[Path] = set()
+    for error in errors:
+        if error.source and not error.source.is_override:
+            file = _resolved(error.source.file)
+            if file in seen:
+                continue
+            if file.suffix != ".ini":
+                seen.add(file)
+        yield error
+
+
+def _resolved(file: Path) -> Path:
+    """Return a path without symbolic links; the path itself if no file can have it."""
+    try:
+        return file.resolve()
+    except (OSError, RuntimeError, ValueError):
+        return file
 
 
 def _place(error: ConfigError) -> tuple[str, int]:

@@ -50,6 +50,18 @@ def test_at_does_not_repeat_an_override() -> None:
     assert str(ConfigError.at(source, "out of range")) == "--set repeat=0: out of range"
 
 
+@pytest.mark.parametrize(
+    ("name", "lines"),
+    [("a.ini", [0, 1, 2]), ("passwords", [0, 1]), ("link.ini", [0, 1]), ("no\0file", [0, 1])],
+)
+def test_of_other_files_than_ini_one_error_is_told(tmp_path: Path, name: str, lines: list[int]) -> None:
+    (tmp_path / "link.ini").symlink_to("passwords")
+    file = tmp_path / name
+    sources = [Source(file, 0, "key", "value", "--set"), Source(file, 1), Source(file, 2)]
+    error = ConfigErrors(ConfigError("no such thing", source) for source in reversed(sources))
+    assert [each.line for each in error.errors] == lines
+
+
 def test_long_values_are_shortened() -> None:
     source = Source(Path("a.ini"), 7, "*.x.points", "1" * 5000)
     assert str(ConfigError.at(source, "out of range")) == f"a.ini:7: *.x.points = {'1' * 100}…: out of range"
