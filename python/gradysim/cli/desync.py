@@ -1,6 +1,6 @@
 """`gradysim desync`: which timers send into each other, and the jitter that they need."""
 
-import sys
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -28,8 +28,11 @@ def desynchronize_timers(
     output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
-    """Find timers of nodes that send into each other, and the random delay (jitter) that they need."""
-    from gradysim.cli.campaign import campaign_of, save
+    """Find timers of nodes that send into each other, and the random delay (jitter) that they need.
+
+    Exit code 1: all runs without jitter fail.
+    """
+    from gradysim.cli.campaign import campaign_of, print_json, save
     from gradysim.cli.console import console
     from gradysim.ladder.desync import desynchronize
     from gradysim.ladder.desync_words import desync_sentences
@@ -44,15 +47,15 @@ def desynchronize_timers(
             save(output, jitter_numbers(found), file, options, log=("x",))
     except (ConfigError, ImportError, OSError) as mistake:
         return say_mistake(mistake)
-    except Exception as failure:
-        print(f"{options.config} run 0: {failure}", file=sys.stderr)
-        return FAILED
-    terminal = console()
-    terminal.print(*desync_sentences(found), sep="\n", markup=False, highlight=False)
-    if found.trials:
-        terminal.print()
-        terminal.print(curve_table(found, metric))
-    return OK
+    if options.as_json:
+        print_json(asdict(found))
+    else:
+        terminal = console()
+        terminal.print(*desync_sentences(found), sep="\n", markup=False, highlight=False)
+        if found.trials:
+            terminal.print()
+            terminal.print(curve_table(found, metric))
+    return FAILED if len(found.failures) == found.runs_per_trial else OK
 
 
 def curve_table(found: "Desync", metric: str | None) -> "Table":
@@ -63,11 +66,20 @@ def curve_table(found: "Desync", metric: str | None) -> "Table":
     from gradysim.ladder.desync_words import text_of_time
 
     table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-    for heading in ("jitter", "delivered", *([metric] if metric else ())):
+    has_failures = any(trial.failures for trial in found.trials)
+    headings = [
+        "jitter",
+        "delivered",
+        *(["failed runs"] if has_failures else []),
+        *([metric] if metric else []),
+    ]
+    for heading in headings:
         table.add_column(heading, justify="right", no_wrap=True)
     for trial in found.trials:
         is_chosen = trial.jitter_s == found.jitter_s
         cells = [text_of_time(trial.jitter_s), f"{trial.delivery:.1%}"]
+        if has_failures:
+            cells.append(str(len(trial.failures) or ""))
         if metric:
             cells.append("" if trial.metric is None else f"{trial.metric:.5g}")
         cells[-1] += " ◀" if is_chosen else ""

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import gradysim.integrated.run  # noqa: F401 (before processes are forked)
+from gradysim.ladder.callbacks import CallbackLog
 from gradysim.ladder.failure import Failure
 from gradysim.ladder.jitter import Jitter
 from gradysim.ladder.kept_runs import KeptRuns
@@ -165,12 +166,12 @@ class Campaign:
                 )
             yield seen
 
-    def record(self, effects: Effects, place: int, path: Path) -> Observation:
+    def record(self, effects: Effects, place: int, path: Path, log: CallbackLog | None = None) -> Observation:
         """Write the replay of the run at a position with these effects, and return what it showed.
 
-        If the run fails, the replay ends there. Raises OSError.
+        If the run fails, the replay and the log of its callbacks end there. Raises OSError.
         """
-        return self.observe(effects, place, replay=path)
+        return self.observe(effects, place, replay=path, log=log)
 
     def observe(
         self,
@@ -180,11 +181,12 @@ class Campaign:
         quantities: Collection[str] = (),
         *,
         replay: Path | None = None,
+        log: CallbackLog | None = None,
     ) -> Observation:
         """Run the scenario at a position with these effects, and return what it showed.
 
         What protocols print is discarded. With `replay`, the replay of the run is written there; otherwise
-        the run is faster.
+        the run is faster. `log` gets the callbacks.
         """
         scenario = self.scenario(effects, place)
         failure = run = None
@@ -193,6 +195,8 @@ class Campaign:
             with contextlib.redirect_stdout(io.StringIO()), start(scenario, **options) as run:
                 if jitter is not None:
                     jitter.add_to(run, scenario)
+                if log is not None:
+                    log.watch(run, scenario)
                 run.run_until()
         except OSError as error:
             if replay is not None and error.filename == str(replay):

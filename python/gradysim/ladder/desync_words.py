@@ -1,9 +1,10 @@
 """Which timers send into each other, in sentences."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gradysim.ladder.clashes import Diagnosis, Pattern
-from gradysim.ladder.desync import Desync
+from gradysim.ladder.desync import Desync, Trial
+from gradysim.ladder.failure import Failure
 
 _BECAUSE = {
     "synchronized": "fire together, {apart} apart{every}",
@@ -20,35 +21,78 @@ _ANSWERS = "send together, {apart} apart: they need a random delay before each m
 _RARE = 0.01
 """Ratio of clashes below which a pattern is not worth a line."""
 
+_MUCH = 0.05
+"""Ratio of lost receptions from which on a recommendation says what remains lost."""
+
+_MOST_FAILURES = 3
+"""Failed runs that are named."""
+
 
 def desync_sentences(found: Desync) -> Iterator[str]:
     """Yield which timers clash, and the jitter that they need."""
+    yield from _failure_sentences(found.failures, found.runs_per_trial)
     diagnosis = found.diagnosis
+    receptions = f"{diagnosis.receptions:,} receptions in {_runs(found.runs_per_trial)}"
     if not diagnosis.clashes:
-        yield f"None of {diagnosis.receptions:,} receptions was lost to another frame."
+        yield f"None of {receptions} was lost to another frame."
         return
-    yield (
-        f"{diagnosis.clashes:,} of {diagnosis.receptions:,} receptions were lost to another frame"
-        f" ({diagnosis.clashes / diagnosis.receptions:.1%})."
-    )
+    ratio = diagnosis.clashes / diagnosis.receptions
+    yield f"{diagnosis.clashes:,} of {receptions} were lost to another frame ({ratio:.1%})."
     yield from pattern_sentences(diagnosis, 5)
     if found.jitter_s is None:
         yield f"No jitter was tried: {found.no_trials}."
         return
     named = " and ".join(f'timer "{timer}" of {group}' for group, timer in found.timers)
-    first, best = found.trials[0], max(trial.delivery for trial in found.trials)
+    without = found.trials[0]
+    best = max(found.trials, key=lambda trial: trial.delivery)
     if found.jitter_s == 0:
+        least = min(trial.clashes for trial in found.trials)
         yield (
-            f"A random delay of {named} does not help: {first.delivery:.1%} of the receptions arrive without"
-            f" it, {best:.1%} at best ({found.run_count} runs)."
+            f"A random delay of {named} does not help: {without.clashes:.1%} of the receptions are lost to"
+            f" other frames without it, and still {least:.1%} with the best one ({found.run_count} runs)."
         )
+        yield from _trial_failure_sentences(found)
         return
     chosen = next(trial for trial in found.trials if trial.jitter_s == found.jitter_s)
     yield (
-        f"Delay {named} by a random time of up to {text_of_time(found.jitter_s)}: {first.delivery:.1%} of the"
-        f" receptions arrive without it, {chosen.delivery:.1%} with it, and {best:.1%} at best"
+        f"Delay {named} by a random time of up to {text_of_time(found.jitter_s)}: {without.delivery:.1%} of"
+        f" the receptions arrive without it, {chosen.delivery:.1%} with it, and {best.delivery:.1%} at best"
         f" ({found.run_count} runs)."
     )
+    yield from _remaining_sentences(chosen)
+    yield from _trial_failure_sentences(found)
+
+
+def _remaining_sentences(chosen: Trial) -> Iterator[str]:
+    """Yield what the recommended jitter does not help against."""
+    if 1 - chosen.delivery >= _MUCH:
+        outcome = chosen.lost_to.replace("_", " ")
+        yield f"Even then, {1 - chosen.delivery:.1%} are lost, most of them to `{outcome}`."
+
+
+def _trial_failure_sentences(found: Desync) -> Iterator[str]:
+    """Yield what failed with jitter, and whether the recommended one changes that."""
+    without = len(found.failures)
+    chosen = next(trial for trial in found.trials if trial.jitter_s == found.jitter_s)
+    if without and found.jitter_s:
+        yield f"With it, {len(chosen.failures)} of {_runs(found.runs_per_trial)} fail; without it, {without}."
+    first = next((trial for trial in found.trials if trial.failures), None)
+    if first is not None and not without:
+        place, failure = next(iter(first.failures.items()))
+        yield f"With a jitter of up to {text_of_time(first.jitter_s)}, run {place} fails: {failure}."
+
+
+def _failure_sentences(failures: Mapping[int, Failure], run_count: int) -> Iterator[str]:
+    if failures and len(failures) == run_count:
+        yield f"All {_runs(run_count)} failed. What is said below is about the time before."
+    for place, failure in list(failures.items())[:_MOST_FAILURES]:
+        yield f"Run {place} failed: {failure}."
+    if len(failures) > _MOST_FAILURES:
+        yield f"So did {len(failures) - _MOST_FAILURES} other runs."
+
+
+def _runs(count: int) -> str:
+    return "1 run" if count == 1 else f"{count} runs"
 
 
 def pattern_sentences(diagnosis: Diagnosis, most: int) -> Iterator[str]:

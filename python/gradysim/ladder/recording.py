@@ -1,7 +1,5 @@
 """A recorded run: its replay, and the callbacks of its protocols with the messages that caused them."""
 
-import contextlib
-import io
 import pickle
 from bisect import bisect_left
 from collections import Counter, defaultdict, deque
@@ -14,12 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from gradysim.integrated.network import node_config
 from gradysim.ladder.callbacks import Callback, CallbackLog, Cause
 from gradysim.ladder.campaign import Campaign, Effects
-from gradysim.ladder.failure import Failure
-from gradysim.ladder.observation import messages_of
 from gradysim.replay.reader import Replay, read_replay
-from gradysim.replay.sink import ReplayWriter
 from gradysim.replay.tables import BROADCAST, FRAME_KINDS, OUTCOMES
-from gradysim.stepping import start
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig
@@ -52,19 +46,13 @@ def record(campaign: Campaign, effects: Effects, place: int, path: Path) -> Reco
 
     An exception of a protocol ends the run, and is part of the result. What protocols print is discarded.
     """
-    scenario = campaign.scenario(effects, place)
     log = CallbackLog()
-    failure = ""
-    with contextlib.redirect_stdout(io.StringIO()):
-        run = start(scenario, replay=ReplayWriter(path))
-        log.watch(run, scenario)
-        try:
-            with run:
-                run.run_until()
-        except Exception as exception:
-            failure = str(Failure.of(exception))
-    capacities = {spec.id: sum(map(_queue_capacity, node_config(spec).wlan)) for spec in scenario.nodes}
-    return Recorded(log, messages_of(run.result().fates), capacities, failure)
+    seen = campaign.record(effects, place, path, log)
+    capacities = {
+        spec.id: sum(map(_queue_capacity, node_config(spec).wlan))
+        for spec in campaign.scenario(effects, place).nodes
+    }
+    return Recorded(log, seen.messages, capacities, str(seen.failure or ""))
 
 
 def _queue_capacity(interface: "InterfaceConfig") -> int:

@@ -104,6 +104,23 @@ def test_an_assertion_has_a_relation(gradysim: Gradysim) -> None:
     assert done.returncode == MISTAKE
 
 
+def test_desync_names_runs_that_fail(gradysim: Gradysim) -> None:
+    done = gradysim("desync", "test.ini", "-c", "Failing", "-n", "2")
+    lines = done.stdout.splitlines()
+    assert lines[0] == "All 2 runs failed. What is said below is about the time before."
+    assert lines[1].startswith("Run 0 failed: RuntimeError: spoilt, in handle_packet of node ")
+    assert lines[-1] == "None of 2 receptions in 2 runs was lost to another frame."
+    assert (done.stderr, done.returncode) == ("", FAILED)
+
+
+def test_desync_prints_an_object_for_other_programs(gradysim: Gradysim) -> None:
+    done = gradysim("desync", "test.ini", "-c", "Failing", "-n", "2", "--json")
+    plain = json.loads(done.stdout)
+    assert plain["jitter_s"] is None
+    assert [each["exception"] for each in plain["failures"].values()] == ["RuntimeError"] * 2
+    assert done.returncode == FAILED
+
+
 def test_nothing_is_delayed_if_nothing_clashes(gradysim: Gradysim) -> None:
     done = gradysim("desync", "test.ini", "-n", "1")
     assert "None of 20 receptions" in done.stdout

@@ -42,7 +42,7 @@ sim-time-limit = 3.5s
 class Scripted:
     """Two nodes: `base`, node 0, and `other`, node 1."""
 
-    def __init__(self, folder: Path, protocols: str, ini: str = "") -> None:
+    def __init__(self, folder: Path, protocols: str, ini: str = "", run_count: int = 1) -> None:
         """Write the files.
 
         `protocols` has the classes Base and Other, which extend Node. `ini` has lines that come first.
@@ -50,7 +50,7 @@ class Scripted:
         (folder / "protocol.py").write_text(_PROTOCOLS + protocols, encoding="utf-8")
         (folder / "test.ini").write_text(f"{_NODES}{ini}{_INI}", encoding="utf-8")
         self._folder = folder
-        self.campaign = Campaign(folder / "test.ini", run_count=1)
+        self.campaign = Campaign(folder / "test.ini", run_count=run_count)
 
     def recording(self, level: str) -> Recording:
         """Return the run with the effects up to a level."""
