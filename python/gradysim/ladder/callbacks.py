@@ -49,7 +49,7 @@ class Effect(NamedTuple):
         action: `send` a message, set or `cancel` a `timer`, `move` the vehicle, `set` a tracked variable,
             change an `attribute` of the protocol, `raise` an exception.
         what: The destination, or the name of the timer, variable, attribute or exception.
-        value: The message, the new value, or the text of the exception.
+        value: The start of the message, the new value, or the first line of the exception.
     """
 
     action: Action
@@ -160,7 +160,8 @@ class _NodeLog:
         try:
             result = method(*arguments)
         except Exception as failure:
-            callback.effects.append(Effect("raise", type(failure).__name__, str(failure)))
+            first_line = next(iter(str(failure).splitlines()), "")
+            callback.effects.append(Effect("raise", type(failure).__name__, first_line))
             self._end(callback)
             raise
         before, self._state = self._state, _state(protocol, self._provider)

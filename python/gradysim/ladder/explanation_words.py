@@ -13,7 +13,7 @@ _LEAST_INCREASE = 0.001
 """Increase of a ratio of losses below which it is not worth a line."""
 
 _LONGEST = 60
-"""Characters of a value or of the text of an exception."""
+"""Characters of a value."""
 
 
 def explanation_sentences(explanation: Explanation, works: int, fails: int) -> Iterator[str]:
@@ -21,9 +21,6 @@ def explanation_sentences(explanation: Explanation, works: int, fails: int) -> I
     yield from _loss_sentences("Receptions", explanation.losses, works, fails)
     yield from _loss_sentences("Messages", explanation.messages, works, fails)
     yield from pattern_sentences(explanation.diagnosis, 2)
-    for level, failure in zip((works, fails), explanation.failures, strict=True):
-        if failure:
-            yield f"The run at level {level} ends with an exception: {failure}"
     first = explanation.first
     if first is None:
         yield "All callbacks of protocols in Python do the same at both levels, at the same times."
@@ -72,7 +69,8 @@ def _text_of(first: Difference, works: int, fails: int) -> str:
         delay_s = first.apart_s[1]
         later = "later" if delay_s > 0 else "earlier"
         return f"{event} comes {text_of_time(abs(delay_s))} {later} at level {fails} than at level {works}"
-    return f"{event} does something else, with the same calls before and at the same time and position"
+    same = "after calls in the same order, at the same time and position"
+    return f"{event} {_deeds(first)} at level {fails}, {same}"
 
 
 def _text_of_order(apart_s: float, is_later: bool) -> str:
@@ -93,16 +91,18 @@ def _text_of_event(event: Event, message: tuple[int, int] = (1, 1)) -> str:
 
 def _consequences(first: Difference, fails: int) -> Iterator[str]:
     """Yield what a callback does because of the difference, and what it no longer does."""
-    if first.affected is None:
-        return
+    if first.affected is not None and first.kind != "values":
+        yield (
+            f"So {text_of_cause(first.affected.name)} {_deeds(first)} at level {fails},"
+            f" at {first.affected_time_s:.6f} s."
+        )
+
+
+def _deeds(first: Difference) -> str:
     before, after = first.effects
     does = [_text_of_effect(each) for each in after[:1]]
     does += [_text_of_missing_effect(each) for each in before[:1]]
-    if does:
-        yield (
-            f"So {text_of_cause(first.affected.name)} {' and '.join(does)} at level {fails},"
-            f" at {first.affected_time_s:.6f} s."
-        )
+    return " and ".join(does)
 
 
 def _text_of_effect(effect: Effect) -> str:
@@ -114,7 +114,7 @@ def _text_of_effect(effect: Effect) -> str:
         "move": "commands the vehicle",
         "set": f"sets `{name}` to {_text_of_value(effect.value)}",
         "attribute": f"sets `self.{name}` to {_text_of_value(effect.value)}",
-        "raise": f"raises {name}: {str(effect.value)[:_LONGEST]}",
+        "raise": f"raises {name}: {effect.value}" if effect.value else f"raises {name}",
     }
     if effect.action == "attribute" and isinstance(effect.value, tuple):
         return f"changes `self.{name}`"

@@ -32,13 +32,11 @@ class Recorded:
         log: Callbacks of the protocols.
         messages: {outcome: messages}.
         queue_capacity: {node: number of messages that wait in its queues, at most}.
-        failure: The exception that ended the run; "" if there is none.
     """
 
     log: CallbackLog
     messages: Mapping[str, int]
     queue_capacity: Mapping[int, int]
-    failure: str
 
 
 def record(campaign: Campaign, effects: Effects, place: int, path: Path) -> Recorded:
@@ -52,7 +50,7 @@ def record(campaign: Campaign, effects: Effects, place: int, path: Path) -> Reco
         spec.id: sum(map(_queue_capacity, node_config(spec).wlan))
         for spec in campaign.scenario(effects, place).nodes
     }
-    return Recorded(log, seen.messages, capacities, str(seen.failure or ""))
+    return Recorded(log, seen.messages, capacities)
 
 
 def _queue_capacity(interface: "InterfaceConfig") -> int:

@@ -31,14 +31,12 @@ class Explanation:
         messages: The same for messages that their sender gave up.
         first: The first callback at which the runs part; None if all do the same at the same times.
         diagnosis: The clashes where it fails.
-        failures: The exception that ended each run; "" if there is none.
     """
 
     losses: Mapping[str, tuple[float, float]]
     messages: Mapping[str, tuple[float, float]]
     first: Difference | None
     diagnosis: Diagnosis
-    failures: tuple[str, str]
 
 
 def record_and_explain(
@@ -83,7 +81,6 @@ def explain(works: Recording, fails: Recording) -> Explanation:
         _side_by_side(*given_up),
         first_difference(works, fails),
         diagnose(fails.replay),
-        (works.recorded.failure, fails.recorded.failure),
     )
 
 

@@ -4,7 +4,6 @@ import pytest
 
 from gradysim.ladder.callbacks import Effect
 from gradysim.ladder.clashes import Diagnosis
-from gradysim.ladder.desync_words import text_of_time
 from gradysim.ladder.difference import Difference, Event
 from gradysim.ladder.explanation_words import explanation_sentences
 from gradysim.ladder.why import Explanation
@@ -78,13 +77,14 @@ def test_what_a_callback_does_in_words(before: Effect | None, after: Effect | No
     assert sentence == f'So timer "look" {expected} at level 2, at 1.500000 s.'
 
 
-@pytest.mark.parametrize(
-    ("seconds", "expected"),
-    [(2.5, "2.5 s"), (0.99996, "1 s"), (0.0123, "12.3 ms"), (54.1e-6, "54.1 µs"), (3e-9, "3 ns"), (0, "0 s")],
-)
-def test_a_time_has_three_digits(seconds: float, expected: str) -> None:
-    assert text_of_time(seconds) == expected
+def test_a_callback_that_does_something_else_for_no_known_reason() -> None:
+    effects: tuple[tuple[Effect, ...], tuple[Effect, ...]] = ((), (Effect("raise", "KeyError", "'1'"),))
+    first = Difference("values", 1, "base", LOOK, affected=LOOK, affected_time_s=1, effects=effects)
+    assert list(explanation_sentences(explanation(first), 1, 2)) == [
+        "First difference, at 1.000000 s at base: timer \"look\" raises KeyError: '1' at level 2,"
+        " after calls in the same order, at the same time and position."
+    ]
 
 
 def explanation(first: Difference) -> Explanation:
-    return Explanation({}, {}, first, Diagnosis(0, 0, 0, (), 0), ("", ""))
+    return Explanation({}, {}, first, Diagnosis(0, 0, 0, (), 0))

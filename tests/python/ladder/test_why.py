@@ -77,9 +77,3 @@ def test_nothing_differs(explanation_of: Callable[..., tuple[Explanation, str]])
     found, text = explanation_of("range")
     assert found.first is None
     assert "do the same at both levels" in text
-
-
-def test_the_exception_of_a_run_is_named(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:
-    found, text = explanation_of("range", "**.protocol.interval=-1")
-    assert found.failures[0] == found.failures[1] != ""
-    assert "ends with an exception: " in text
