@@ -100,6 +100,8 @@ def _consequences(first: Difference, fails: int) -> Iterator[str]:
 
 def _deeds(first: Difference) -> str:
     before, after = first.effects
+    if before and after and before[0][:2] == after[0][:2] and after[0].action in ("set", "attribute"):
+        return f"{_text_of_effect(after[0])} instead of {_text_of_value(before[0].value)}"
     does = [_text_of_effect(each) for each in after[:1]]
     does += [_text_of_missing_effect(each) for each in before[:1]]
     return " and ".join(does)

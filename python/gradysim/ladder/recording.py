@@ -154,28 +154,34 @@ class Recording:
         native = {node["id"] for node in self.replay.run["nodes"]} - {each.node for each in self.callbacks}
         counts: Counter[tuple[int, str]] = Counter()
         waiting: defaultdict[int, deque[_Message]] = defaultdict(deque)
-        last: dict[tuple[int, int], Cause] = {}
-        columns = ("time_ns", "node", "kind", "retry", "destination", "cause")
-        for row, (time_ns, node, kind, retry, destination, name) in enumerate(
-            zip(*(self.frames[column] for column in columns), strict=True)
-        ):
-            if kind not in _DATA:
-                continue
-            key = (node, destination)
-            if retry and key in last:
-                self.frames_of[last[key]].append(row)
-                continue
+        columns = [self.frames[column] for column in ("time_ns", "node", "destination", "cause")]
+        for rows in self._exchanges():
+            time_ns, node, destination, name = (column[rows[0]] for column in columns)
+            message: Cause | None = Cause(~node, name, counts[node, name])
             if node in native:
-                message = Cause(~node, name, counts[node, name])
                 counts[node, name] += 1
             else:
                 self._enqueue(messages[node], waiting[node], time_ns)
-                found = self._dequeue(waiting[node], destination, name, texts.get(row))
-                if found is None:
-                    continue
-                message = found
-            self.frames_of[message] = [row]
-            last[key] = message
+                text = next((texts[row] for row in rows if row in texts), None)
+                message = self._dequeue(waiting[node], destination, name, text)
+            if message is not None:
+                self.frames_of[message] = rows
+
+    def _exchanges(self) -> Iterator[list[int]]:
+        """Yield the rows of each data frame and of its retries, in the order of the first ones."""
+        found: list[list[int]] = []
+        last: dict[tuple[int, int], list[int]] = {}
+        columns = ("node", "destination", "kind", "retry")
+        rows = zip(*(self.frames[column] for column in columns), strict=True)
+        for row, (node, destination, kind, retry) in enumerate(rows):
+            if kind not in _DATA:
+                continue
+            if retry and (node, destination) in last:
+                last[node, destination].append(row)
+            else:
+                last[node, destination] = [row]
+                found.append(last[node, destination])
+        yield from found
 
     def _enqueue(self, messages: "deque[_Message]", queue: "deque[_Message]", time_ns: int) -> None:
         """Move the messages that were sent until then to the queue of their node."""

@@ -60,6 +60,7 @@ def test_a_difference_in_words(first: Difference, expected: str) -> None:
             Effect("set", "gave up", 1),
             "sets `gave up` to 1 and does not set `answered`",
         ),
+        (Effect("set", "good", 1), Effect("set", "good", 0), "sets `good` to 0 instead of 1"),
         (None, Effect("raise", "KeyError", "'1'"), "raises KeyError: '1'"),
         (Effect("send", 0, "photo"), None, "does not send its message"),
         (None, Effect("attribute", "waits", False), "sets `self.waits` to False"),

@@ -69,6 +69,43 @@ def test_a_retry_belongs_to_its_message(tmp_path: Path) -> None:
     assert recording.outcome(message, 1) == "below_sensitivity"
 
 
+def test_messages_that_find_the_channel_busy_shift_no_others(tmp_path: Path) -> None:
+    """Ten nodes of IEEE 802.15.4 send more than the channel carries, so devices drop messages."""
+    protocols = """
+class Base(Node):
+    pass
+
+class Other(Node):
+    pass
+
+class Sensor(Node):
+    def initialize(self):
+        self.number = 0
+        self.after("report", self.provider.random.uniform(0, 0.02))
+    def handle_timer(self, timer):
+        self.number += 1
+        self.send(f"{self.number} of {self.provider.get_id()}", 0)
+        self.after("report", self.provider.random.uniform(0.01, 0.03))
+"""
+    ini = """
+sim-time-limit = 1s
+*.radioMedium.typename = "Ieee802154NarrowbandScalarRadioMedium"
+*.*.wlan[*].typename = "Ieee802154NarrowbandInterface"
+*.numSensors = 10
+*.sensors[*].protocol.class = "protocol.py:Sensor"
+*.sensors[*].mobility.lineStepX = 1m
+"""
+    recording = Scripted(tmp_path, protocols, ini).recording("noise")
+    packets = [each for each in recording.callbacks if each.name == "packet"]
+    assert len(packets) > 50
+    for each in packets:
+        assert each.cause is not None
+        assert f" of {recording.callbacks[each.cause.callback].node}" in each.argument
+    numbers = [(each.argument, each.cause) for each in packets]
+    assert len(set(numbers)) == len(numbers)
+    assert "channel_access_failure" in recording.dropped.values()
+
+
 def test_a_frame_in_the_air_at_the_end_is_not_lost(tmp_path: Path) -> None:
     recording = Scripted(tmp_path, ASKS, "sim-time-limit = 1.00001s\n").recording("airtime")
     message = Cause(next(p for p, each in enumerate(recording.callbacks) if each.name == "timer ask"), 1, 0)
