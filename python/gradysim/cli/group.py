@@ -50,7 +50,6 @@ class Group:
         line: Beginning of the line about a run; None to print its full summary.
         directory: Working directory of the command.
         columns: Width of its terminal; None without one.
-        stop_at_s: Time of --stop-after, in seconds since the epoch.
         command: Identifies the command.
     """
 
@@ -61,17 +60,13 @@ class Group:
     line: LineStart | None
     directory: str
     columns: int | None
-    stop_at_s: float | None
     command: str
 
     @staticmethod
-    def of(
-        file: Path, options: RunOptions, first: int, line: LineStart | None, left_s: float | None
-    ) -> "Group":
-        """Return a group without runs of the command in this process, which ends in `left_s` seconds."""
-        stop_at_s = None if left_s is None else time.time() + left_s
+    def of(file: Path, options: RunOptions, first: int, line: LineStart | None) -> "Group":
+        """Return a group without runs of the command in this process."""
         command = os.urandom(8).hex()
-        return Group(file, options, (), first, line, os.getcwd(), width_of_terminal(), stop_at_s, command)
+        return Group(file, options, (), first, line, os.getcwd(), width_of_terminal(), command)
 
 
 @dataclass(frozen=True)
@@ -178,9 +173,8 @@ def _computed(group: Group) -> GroupResult:
         _, build = simulator(options)
         report_crashes()
         import_what_runs_use(options)
-        left_s = None if group.stop_at_s is None else group.stop_at_s - time.time()
         begin_s = time.monotonic()
-        interrupt = StopOnInterrupt(left_s)
+        interrupt = StopOnInterrupt()
         with ForkExecutor(1, interrupt, captures=True) as executor, interrupt:
             signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGINT])
             task = RunTask(study, options, build, interrupt, group.first, group.line)

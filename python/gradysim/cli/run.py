@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from gradysim.cli.earlier_results import runs_to_do
-from gradysim.cli.errors import INCOMPLETE, INTERRUPTED, OK, report_crashes, say_mistake
+from gradysim.cli.errors import INTERRUPTED, OK, report_crashes, say_mistake
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import FileArgument, RunOptions, option_value
 from gradysim.cli.output import (
@@ -179,14 +179,13 @@ def _execute(
             with ForkExecutor(options.jobs, interrupt) as forks:
                 code = _run_rounds(prepared, options, lambda place: forks.submit(task, place))
         else:
-            group = Group.of(file, options, first, line, left_s)
+            group = Group.of(file, options, first, line)
             with closing(GroupExecutor(workers, group, interrupt)) as groups:
                 code = _run_rounds(prepared, options, lambda place: groups.submit(study.numbers[place]))
         if options.is_writer:
             remove_lock_file(options.directory)
     if code == INTERRUPTED:
-        is_over = left_s is not None and not interrupt.should_stop()  # the clock of a worker was ahead
-        code = INCOMPLETE if is_over else interrupt.exit_code
+        code = interrupt.exit_code
     if code == OK and has_lines and options.is_writer and not (options.as_json or options.quiet):
         print(f"files in {options.directory}")
     return code

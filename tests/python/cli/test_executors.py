@@ -15,7 +15,6 @@ import pytest
 from gradysim.cli.errors import INCOMPLETE
 from python.cli.command import PROTOCOL, Gradysim, compiled, environment, objects, run_without
 from python.processes import session, wait_until
-from python.thorough import some
 
 COSTS = ("wall_s", "cpu_s", "setup_s", "checksum")
 
@@ -158,6 +157,7 @@ def results(directory: Path) -> dict[str, Any]:
     return {file.name: without_costs(json.loads(file.read_text())) for file in directory.glob("*.json")}
 
 
+@pytest.mark.verify
 def test_a_scheduler_without_workers_ends_the_command(folder: Path, scheduler: Scheduler) -> None:
     options = (*ONE_ENDS, "--scheduler", scheduler.address)
     with command(folder, *options, code=WITHOUT_PATIENCE) as process:
@@ -253,13 +253,17 @@ def test_without_a_scheduler_workers_start_here(folder: Path, gradysim: Gradysim
     assert rows == [without_costs(row) for row in objects(expected.stdout)]
 
 
+@pytest.mark.verify
 @pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
-@pytest.mark.parametrize("number", some([signal.SIGTERM, signal.SIGKILL, signal.SIGINT]))
-def test_workers_here_end_with_the_command(folder: Path, number: signal.Signals) -> None:
-    with command(folder, *ONE_ENDS, "--jobs", "2") as process:
+@pytest.mark.parametrize(
+    ("number", "code"),
+    [(signal.SIGTERM, 143), (signal.SIGKILL, -9), (signal.SIGINT, 130), (signal.SIGALRM, INCOMPLETE)],
+)
+def test_workers_here_end_with_the_command(folder: Path, number: signal.Signals, code: int) -> None:
+    with command(folder, *ONE_ENDS, "--jobs", "2", "--stop-after", "1h") as process:
         wait_for_the_second_run(folder)
         process.send_signal(number)
         _, errors = process.communicate(timeout=60)
         wait_until(lambda: not session(process.pid), 3)
     assert errors.splitlines()[0] == LOCAL
-    assert process.returncode == (-number if number == signal.SIGKILL else 128 + number)
+    assert process.returncode == code

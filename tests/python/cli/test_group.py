@@ -5,7 +5,6 @@ import pickle
 import signal
 import subprocess
 import sys
-import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -24,10 +23,10 @@ def group(folder, monkeypatch):
     """`group(*numbers, options)`: a group of the study in the directory."""
     monkeypatch.chdir(folder)
 
-    def of(*numbers, stop_at_s=None, **options):
+    def of(*numbers, **options):
         run_options = RunOptions(mode="prototype", **options)
         file, line, name = folder / "test.ini", LineStart(1, 2), folder.name
-        return Group(file, run_options, numbers, 0, line, os.getcwd(), None, stop_at_s, name)
+        return Group(file, run_options, numbers, 0, line, os.getcwd(), None, name)
 
     return of
 
@@ -58,10 +57,6 @@ def test_it_goes_on_after_a_run_that_is_killed(group, folder):
     outcomes = [ended.outcome for ended in result.ended.values()]
     assert all(isinstance(outcome, WorkerError) and outcome.exit_code == -9 for outcome in outcomes)
     assert [str(outcome) for outcome in outcomes] == ["the process was killed by SIGKILL"] * 2
-
-
-def test_it_stops_when_the_time_is_over(group):
-    assert compute(group(0, 1, stop_at_s=time.time() - 1)).ended == {}
 
 
 def test_a_group_that_cannot_be_read_is_an_error(group):

@@ -49,7 +49,7 @@ def by_hand():
 def groups(by_hand, monkeypatch):
     """Return the executor of groups for two workers."""
     monkeypatch.setattr(group_executor, "_POLL_S", 0.0)
-    group = Group.of(Path("test.ini"), RunOptions(), 0, None, None)
+    group = Group.of(Path("test.ini"), RunOptions(), 0, None)
     with StopOnInterrupt() as interrupt:
         yield GroupExecutor(Workers(by_hand, 2), group, interrupt)
 
@@ -122,7 +122,7 @@ class Elsewhere(Workers):
 
 
 def test_groups_of_a_cluster_are_not_canceled_but_get_each_press(by_hand):
-    group = Group.of(Path("test.ini"), RunOptions(), 0, None, None)
+    group = Group.of(Path("test.ini"), RunOptions(), 0, None)
     workers = Elsewhere(by_hand)
     with StopOnInterrupt() as interrupt:
         groups = GroupExecutor(workers, group, interrupt)
