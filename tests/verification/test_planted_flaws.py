@@ -16,7 +16,7 @@ from gradysim.ladder.desync import desynchronize
 pytestmark = pytest.mark.verify
 
 FILE = Path(__file__).parent / "planted" / "planted.ini"
-_RUNS = 100
+_RUNS = 400
 _TRIALS = 2
 
 
@@ -82,6 +82,10 @@ FLAWS = (
     # All drones hear the poll at the same time, so their answers are as synchronized as timers.
     Flaw("Poll", "base answers >= 342", "interference", {"airtime", "interference"}, "synchronized"),
     Flaw("OneHop", "base reports >= 95", "range", {"range"}),
+    # Capture hides the flaw again at the levels above.
+    Flaw(
+        "TwoBeacons", "base near >= 190", "interference", {"range", "airtime", "interference"}, "synchronized"
+    ),
 )
 
 each_flaw = pytest.mark.parametrize("flaw", FLAWS, ids=str)
@@ -96,6 +100,26 @@ def test_bisection_names_the_effect(flaw: Flaw) -> None:
     assert verdict.is_sure
     assert campaign.levels[verdict.fails].name == flaw.level
     assert set(verdict.smallest) == flaw.effects
+
+
+def test_a_flaw_in_a_tenth_of_the_runs_is_located() -> None:
+    campaign = Campaign(FILE, "TenSlots", run_count=_RUNS)
+    verdict = Bisection(campaign, Assertion.parse("candidates[*] heard >= 1")).find()
+    assert verdict.fails is not None
+    assert verdict.is_sure
+    assert campaign.levels[verdict.fails].name == "interference"
+
+
+def test_an_exception_is_a_failure_with_its_line() -> None:
+    campaign = Campaign(FILE, "KeyError", run_count=_RUNS)
+    bisection = Bisection(campaign, Assertion.parse("events > 0"))
+    verdict = bisection.find()
+    assert verdict.fails is not None
+    assert campaign.levels[verdict.fails].name == "interference"
+    failure = next(iter(bisection.at_level(verdict.fails).failures.values()))
+    assert failure.exception == "KeyError"
+    assert failure.where.startswith("in handle_packet of node 0")
+    assert "key_error.py:" in failure.line
 
 
 @each_flaw

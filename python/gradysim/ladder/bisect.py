@@ -321,7 +321,8 @@ class Bisection:
                 tally.searched[place] = self._holds(tally, place, each)
 
     def _check_budget(self, missing: Sequence[Sequence[int]]) -> None:
-        if self.run_count + sum(map(len, missing)) > self._max_runs:
+        last = max((place for places in missing for place in places), default=0)
+        if self.run_count + sum(map(len, missing)) > self._max_runs or last >= len(self.campaign):
             raise _OutOfRunsError
 
     def _submitted(

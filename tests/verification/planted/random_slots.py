@@ -1,13 +1,20 @@
-"""Few random slots: candidates claim to be the leader in one of two slots, drawn once."""
+"""Few random slots: candidates claim to be the leader in one of some slots, drawn once."""
 
 from node import Node
 
 
 class Candidate(Node):
-    """Claims in its slot."""
+    """Claims in its slot.
+
+    Attributes:
+        slots: Number of slots.
+    """
+
+    slots: int = 2
 
     def initialize(self) -> None:
-        self.provider.schedule_timer("claim", 1 + 0.1 * self.provider.random.randrange(2))
+        self.count("heard", 0)
+        self.provider.schedule_timer("claim", 1 + 0.1 * self.provider.random.randrange(self.slots))
 
     def handle_timer(self, timer: str) -> None:
         self.broadcast("claim")
