@@ -42,6 +42,7 @@ CONTENTS = {
     "simulator": "events and handlers",
     "motion": "physics of vehicles, wind, position errors",
     "encapsulator": "protocol to environment",
+    "showcases": "GrADyS' protocols",
     "viewer": "page in a browser",
     "protocol": "interface, messages, plugins",
     "installation": "check of installed files",

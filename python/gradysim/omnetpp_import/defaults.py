@@ -2,20 +2,24 @@
 
 import contextlib
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
-from gradysim.omnetpp_import.lines import CLASS_TO_WRITE, Action, Outcome
 from gradysim.omnetpp_import.ned import NedNetwork, NedNode
+from gradysim.omnetpp_import.outcome import Action, Outcome
+from gradysim.omnetpp_import.protocol_lines import reference
 from gradysim.omnetpp_import.tables import (
+    CLASS_TO_WRITE,
     DEFAULT_MOBILITY,
-    DRAWN_BY_DEFAULT,
+    DEFAULT_PROTOCOL,
+    MOBILITY_DEFAULTS,
     NODE_TYPES,
     NOT_MODELLED_NODES,
     VALUES,
 )
-from gradysim.scenario.errors import BadValue
+from gradysim.scenario.errors import BadValue, Source
 from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, RECTANGLE, engine_key
+from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, PROTOCOL_KEYS, RECTANGLE, engine_key
 from gradysim.scenario.patterns import PatternIndex, compile_pattern
 
 _MEDIA = engine_key("medium.typename").kind.names
@@ -45,9 +49,9 @@ def indexed(entries: Iterable[Entry]) -> Lines:
 def translated_lines(outcomes: Iterable[Outcome]) -> Iterator[Entry]:
     """Yield the lines of the translated file, and those that the user writes."""
     return (
-        Entry(key, text, outcome.entry.source)
+        Entry(key, text, outcome.entry.source if outcome.entry else Source(Path(), 0))
         for outcome in outcomes
-        if outcome.entry and outcome.action is not Action.NOT_MODELLED
+        if outcome.action is not Action.NOT_MODELLED
         for key, equals, text in [outcome.text.partition(" = ")]
         if equals
     )
@@ -79,8 +83,9 @@ def defaults_of(network: NedNetwork, entries: Lines, lines: Lines, in_force: Lin
     for node in network.nodes:
         if node.type in NOT_MODELLED_NODES:
             yield not_modelled(f"{node.written}.typename", node.type, NOT_MODELLED_NODES[node.type])
-        if node.size in network.sizes:
-            yield from default(node.size_key, node.size_key, network.sizes[node.size])
+        size = network.sizes.get(node.size, node.size)
+        if size.isdigit():
+            yield from default(node.size_key, node.size_key, size)
         for path, value in NODE_TYPES[node.type].items():
             first = path.replace("[*]", "[0]")
             yield from default(f"{node.written}.{path}", f"{node.first}.{first}", value)
@@ -88,7 +93,7 @@ def defaults_of(network: NedNetwork, entries: Lines, lines: Lines, in_force: Lin
         typename = "mobility.typename"
         yield from default(f"{node.written}.{typename}", f"{node.first}.{typename}", f'"{DEFAULT_MOBILITY}"')
         for name, value in {
-            **DRAWN_BY_DEFAULT.get(mobility, {}),
+            **MOBILITY_DEFAULTS.get(mobility, {}),
             **_place(node, mobility, entries, lines),
         }.items():
             yield from default(f"{node.written}.mobility.{name}", f"{node.first}.mobility.{name}", value)
@@ -128,25 +133,33 @@ def _texts_for(path: str, lines: Lines) -> Iterator[str]:
     return (entry.text for entry in lines.matching(f"{_NETWORK}.{path}"))
 
 
-def missing_classes(network: NedNetwork, entries: Lines, lines: Lines) -> Iterator[Outcome]:
+def missing_classes(network: NedNetwork, entries: Lines, lines: Lines, in_force: Lines) -> Iterator[Outcome]:
     """Yield a line for the protocol of each group of nodes for which `lines` have none.
 
-    A single node also needs one if only a line with wildcards matches it.
-
-    `entries` are all lines of the file, as they were.
+    A single node also needs one if only a line with wildcards matches it. Arguments are as for `defaults_of`.
     """
     for node in network.nodes:
         last = f"{node.name}[{_SOME_OTHER}]" if node.size else node.name
-        if found := lines.matching(f"{_NETWORK}.{last}.{PROTOCOL_CLASS.path}"):
-            chosen = found[0].text
-            if not node.size and not any(
-                f".{node.name}." in line.key for line in found if chosen == line.text
-            ):
-                note = "a single node is one that a line names"
-                yield Outcome(Action.ADDED, None, f"*.{last}.{PROTOCOL_CLASS.path} = {chosen}", note)
-            continue
         app = next(_texts_for(f"{node.first}.app[0].typename", entries), "").strip('"')
-        what = f"in Python, what {app} does" if app else "what the node runs"
-        if _is_set(f"{node.first}.{PROTOCOL_CLASS.path}", lines):
-            what = "what the others run"
-        yield Outcome(Action.TO_WRITE, None, f"*.{node.written}.{CLASS_TO_WRITE}", what)
+        by_default = DEFAULT_PROTOCOL if app in ("", "UdpCommunicationApp") else ""
+        if found := _protocol_lines(last, lines):
+            chosen = found[0]
+            if not node.size and not any(
+                f".{node.name}." in line.key for line in found if chosen.text == line.text
+            ):
+                key = f"*.{last}.protocol.{chosen.key.rpartition('.')[2]}"
+                note = "a single node is one that a line names"
+                yield Outcome(Action.ADDED, None, f"{key} = {chosen.text}", note)
+        elif not by_default:
+            what = f"in Python, what {app} does" if app else "what the node runs"
+            if _protocol_lines(node.first, lines):
+                what = "what the others run"
+            yield Outcome(Action.TO_WRITE, None, f"*.{node.written}.{CLASS_TO_WRITE}", what)
+        if by_default and not _protocol_lines(last, in_force):
+            line = f"*.{node.written}.{PROTOCOL_CLASS.path} = {reference(by_default)}"
+            yield Outcome(Action.ADDED, None, line, f"default of {node.type}")
+
+
+def _protocol_lines(name: str, lines: Lines) -> list[Entry]:
+    """Return the lines for the protocol of a node; those for its class come first."""
+    return [line for key in PROTOCOL_KEYS for line in lines.matching(f"{_NETWORK}.{name}.{key.path}")]

@@ -8,6 +8,8 @@ import re
 from collections.abc import Mapping
 from typing import Final
 
+from gradysim import showcases
+
 # ---- nodes and networks, for NED files ---------------------------------------------------------------------
 
 NODE_TYPES: Final[Mapping[str, Mapping[str, str]]] = {
@@ -27,9 +29,13 @@ NODE_TYPES: Final[Mapping[str, Mapping[str, str]]] = {
 DEFAULT_MOBILITY = "StationaryMobility"
 """Of every node type above."""
 
-DRAWN_BY_DEFAULT: Final[Mapping[str, Mapping[str, str]]] = {
+DEFAULT_PROTOCOL = "CommunicationProtocolBase"
+"""In `SHOWCASES`, of every node type above: it does nothing."""
+
+MOBILITY_DEFAULTS: Final[Mapping[str, Mapping[str, str]]] = {
     "LinearMobility": {"speed": "0mps", "initialMovementHeading": "uniform(0deg, 360deg)"},
     "CircleMobility": {"speed": "0mps", "startAngle": "uniform(0deg, 360deg)"},
+    "DroneMobility": {"telemetryInterval": "100ms"},
 }
 """{mobility: {parameter: its default in NED}}, of those whose default is another one here."""
 
@@ -68,12 +74,26 @@ GEOGRAPHIC: Final[Mapping[str, str]] = {
 }
 """{parameter of a mobility: the coordinate here}. A DroneMobility starts at its home."""
 
-ORIGIN: Final[Mapping[str, str]] = {
-    "initialX": "sceneLatitude",
-    "initialY": "sceneLongitude",
-    "initialZ": "sceneAltitude",
+SHOWCASES: Final = {name: getattr(showcases, name) for name in showcases.__all__}
+"""{protocol of GrADyS' project: its class here}."""
+
+APPS: Final = {"UdpSink": 'protocol.typename = "SinkProtocol"'}
+"""{application: the line for the protocol here}, of those that are not in `SHOWCASES`."""
+
+PROTOCOL_PARAMETERS: Final[Mapping[str, tuple[str, ...]]] = {
+    "app.destAddresses": ("destinations", "hears"),
+    "app.messageLength": ("message_length",),
+    "app.sendInterval": ("send_interval",),
+    "app.startTime": ("start_time",),
+    "app.stopTime": ("stop_time",),
+    "mobility.startTime": ("takeoff_time",),
+    "mobility.waypointProximity": ("tolerance",),
+    "mobility.waypointFile": ("mission",),
 }
-"""{coordinate: parameter of the coordinate system}."""
+"""{end of a key below a node: parameters of a protocol in `SHOWCASES`, of which the first one counts}.
+
+GrADyS' UdpCommunicationApp sends to all nodes, and ignores messages of nodes that are not its destinations.
+"""
 
 CLASS_NAMES = ("protocolMobile", "protocolSensor", "protocolGround")
 FILE_NAME, LOCATION, PROTOCOL = "protocolFileName", "customProtocolLocation", "protocol"
@@ -108,6 +128,8 @@ VALUES: Final[Mapping[str, Mapping[str, str]]] = {
 _APPS = "the protocol of a node sends its messages"
 _ADDRESSES = "nodes are addressed by their ids"
 _SHOWN = "only OMNeT++ shows it"
+OTHER_APP = "a node runs one protocol, in place of app[0]"
+DRAWN = "a node draws it once, and not for each message"
 
 NO_MEANING: Final[Mapping[str, str]] = {
     "app": _APPS,
@@ -230,6 +252,8 @@ NO_RADIO_TYPE = "the interface and the medium say what its radio is"
 NO_AREA = "nothing limits the area of such nodes"
 
 # ---- lines that the user writes ----------------------------------------------------------------------------
+
+CLASS_TO_WRITE = 'protocol.class = "FILE.py:CLASS"'
 
 TO_WRITE: Final[Mapping[str, tuple[str, str]]] = {
     "mobility.waypointFile": ("", "the mission is one of the protocol (docs/how-to/fly-a-mission.md)"),

@@ -9,8 +9,11 @@ from itertools import chain
 from pathlib import Path
 
 from gradysim.omnetpp_import.defaults import defaults_of, indexed, missing_classes, translated_lines
-from gradysim.omnetpp_import.lines import Action, LineTranslator, Outcome
+from gradysim.omnetpp_import.lines import LineTranslator
 from gradysim.omnetpp_import.ned import NedNetwork, read_networks
+from gradysim.omnetpp_import.node_ids import name_by_ids
+from gradysim.omnetpp_import.outcome import Action, Outcome
+from gradysim.omnetpp_import.tables import CLASS_TO_WRITE
 from gradysim.scenario.ini import GENERAL, Entry, IniFile, read_ini
 from gradysim.scenario.schema import NETWORK
 from gradysim.scenario.sections import config_names, search_order
@@ -61,15 +64,16 @@ def translate(file: Path, folder: Path) -> Translation:
         for node in network.nodes
         if node.size.isidentifier()
     }
-    lines = LineTranslator(entries, size_keys, os.path.relpath(file.parent, folder))
+    orders = {name: search_order(ini, name) for name in ini.sections}
+    lines = LineTranslator(orders, size_keys, os.path.relpath(file.parent, folder))
     by_section = {section.name: [lines.outcome(entry) for entry in section.entries] for section in sections}
     _leave_to_user(by_section)
-    outcomes = [outcome for of_section in by_section.values() for outcome in of_section]
-    added = _added(ini, used, entries, by_section)
-    for name, of_section in added.items():
+    for name, of_section in _added(ini, used, entries, by_section).items():
         by_section[name] += of_section
-        outcomes += of_section
-    return Translation(_text(file, ini, by_section), tuple(outcomes))
+    name_by_ids(by_section, [orders[name] for name in config_names(ini)])
+    of_file = [each for section in sections for each in by_section[section.name][: len(section.entries)]]
+    added = [each for section in sections for each in by_section[section.name][len(section.entries) :]]
+    return Translation(_text(file, ini, by_section), (*of_file, *added))
 
 
 def _added(
@@ -109,7 +113,7 @@ def _defaults(
         in_force = indexed(translated_lines(chain.from_iterable(map(by_section.__getitem__, always))))
         added[GENERAL if is_one else name] += [
             *defaults_of(network, before, lines, in_force),
-            *missing_classes(network, before, lines),
+            *missing_classes(network, before, lines, in_force),
         ]
     return added
 
@@ -149,6 +153,11 @@ def _text(file: Path, ini: IniFile, by_section: dict[str, list[Outcome]]) -> str
 
 
 def _row(outcome: Outcome) -> str:
+    if outcome.text.endswith(
+        CLASS_TO_WRITE
+    ):  # a line in force, or nodes would run the class of another section
+        key, _, text = outcome.text.partition(" = ")
+        return f"{key} = default  # {outcome.action.value}: {text}  ({outcome.note})"
     if not outcome.is_in_force:
         return f"# {outcome.action.value}: {' '.join(outcome.text.splitlines())}  ({outcome.note})"
     return outcome.text.replace("\n", "\n    ")

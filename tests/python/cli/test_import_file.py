@@ -19,7 +19,7 @@ include more.ini
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
     (tmp_path / "omnetpp.ini").write_text(INI)
-    (tmp_path / "more.ini").write_text('*.quads[*].protocol.typename = "DadcaProtocol"\n')
+    (tmp_path / "more.ini").write_text('*.quads[*].protocol.typename = "OwnProtocol"\n')
     return tmp_path / "omnetpp.ini"
 
 
@@ -33,14 +33,14 @@ def test_the_list(file: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
         "    5  left out      *.quads[*].numApps = 1  (the protocol of a node sends its messages)",
         '    6  not modelled  **.wlan[*].mac.typename = "XMac"'
         "  (the MAC is DCF of 802.11, or CSMA/CA of 802.15.4)",
-        'more.ini:1  to write      *.quads[*].protocol.typename = "DadcaProtocol" -> '
-        '*.quads[*].protocol.class = "FILE.py:CLASS"  (in Python, what DadcaProtocol does)',
+        'more.ini:1  to write      *.quads[*].protocol.typename = "OwnProtocol" -> '
+        '*.quads[*].protocol.class = "FILE.py:CLASS"  (in Python, what OwnProtocol does)',
     ]
     assert lines[6] == (
         '       added         *.radioMedium.typename = "Ieee802154NarrowbandScalarRadioMedium"'
         "  (default of GradysNetwork)"
     )
-    counts = "2 kept, 1 renamed, 6 added, 1 left out, 1 not modelled, 3 to write"
+    counts = "2 kept, 1 renamed, 8 added, 1 left out, 1 not modelled, 1 to write"
     assert lines[-1] == f"{tmp_path / 'here' / 'omnetpp.ini'}: {counts}"
 
 
@@ -51,7 +51,7 @@ def test_the_file(file: Path, tmp_path: Path) -> None:
         "# From omnetpp.ini, by `gradysim import`.\n\n[General]\nnetwork = GradysNetwork\n"
     )
     assert '\n# not modelled: **.wlan[*].mac.typename = "XMac"  (the MAC is DCF' in text
-    assert '\n# to write: *.quads[*].protocol.class = "FILE.py:CLASS"  (in Python, what' in text
+    assert '\n*.quads[*].protocol.class = default  # to write: "FILE.py:CLASS"  (in Python, what' in text
 
 
 def test_a_file_that_is_there_is_not_overwritten(file: Path, capsys: pytest.CaptureFixture[str]) -> None:

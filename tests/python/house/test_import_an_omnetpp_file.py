@@ -24,13 +24,15 @@ def test_its_commands_do_what_it_says(
     command, further = code_blocks(GUIDE, "sh")
     Path("omnetpp.ini").write_text(before)
     Path("fleet.py").write_text(
-        QUIET + "".join(f"class {name}(Quiet): ...\n" for name in ("Uav", "Sensor", "Station"))
+        QUIET + "".join(f"class {name}(Quiet): ...\n" for name in ("Sensor", "Station"))
     )
     assert main(command.split()[1:]) == 0
     assert capsys.readouterr().out == shown
-    (lines,) = code_blocks(GUIDE, "ini")
-    with Path("imported/omnetpp.ini").open("a") as file:
-        file.write(lines)
+    (line,) = code_blocks(GUIDE, "ini")
+    file = Path("imported/omnetpp.ini")
+    (before,) = (row for row in file.read_text().splitlines() if "# to write: " in row)
+    assert before.split()[:3] == [*line.split()[:2], "default"]
+    file.write_text(file.read_text().replace(before, line))
     for line in further.splitlines():
         assert main(line.split()[1:]) == 0
     assert "0 errors and 0 warnings" in capsys.readouterr().out

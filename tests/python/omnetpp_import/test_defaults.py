@@ -54,6 +54,8 @@ def test_all_defaults(translated: Translated) -> None:
         '*.base.mobility.typename = "StationaryMobility"',
         "*.base.mobility.initialX = 30m",
         "*.base.mobility.initialY = 40m",
+        '*.drones[*].protocol.class = "gradysim.showcases:CommunicationProtocolBase"',
+        '*.base.protocol.class = "gradysim.showcases:CommunicationProtocolBase"',
     ]
 
 
@@ -83,9 +85,25 @@ def test_what_paths_draw_by_default(translated: Translated) -> None:
 
 
 def test_protocols_are_missing(translated: Translated) -> None:
-    lines = '*.drones[0].protocol.typename = "DadcaProtocol"\n*.base.app[0].typename = "UdpSink"\n'
+    lines = '*.drones[0].protocol.typename = "OwnProtocol"\n'
+    lines += '*.drones[*].app[0].typename = "PingApp"\n*.base.app[0].typename = "PingApp"\n'
     assert missing(translated(HEAD + lines, NED)) == [
-        ("*.drones[0].protocol.class", "in Python, what DadcaProtocol does"),
+        ("*.drones[0].protocol.class", "in Python, what OwnProtocol does"),
         ("*.drones[*].protocol.class", "what the others run"),
-        ("*.base.protocol.class", "in Python, what UdpSink does"),
+        ("*.base.protocol.class", "in Python, what PingApp does"),
     ]
+
+
+def test_nodes_without_an_application_do_nothing(translated: Translated) -> None:
+    lines = '*.drones[0].protocol.typename = "OwnProtocol"\n*.base.app[0].typename = "UdpSink"\n'
+    texts = [text for text in added(translated(HEAD + lines, NED)) if ".protocol." in text]
+    assert texts == ['*.drones[*].protocol.class = "gradysim.showcases:CommunicationProtocolBase"']
+
+
+def test_a_single_node_is_named(translated: Translated) -> None:
+    texts = added(translated(f'{HEAD}*.b*.app[0].typename = "UdpSink"\n', NED))
+    assert '*.base.protocol.typename = "SinkProtocol"' in texts
+
+
+def test_a_vector_of_a_fixed_size(translated: Translated) -> None:
+    assert "*.numDrones = 7" in added(translated(HEAD, NED.replace("[numDrones]", "[7]")))

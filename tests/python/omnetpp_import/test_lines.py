@@ -72,6 +72,7 @@ def test_renamed(outcome: FirstOutcome, before: str, after: str) -> None:
         ("*.quads[*].wlan[0].radioVisualizer.antennaLobeStep = 1deg", NO_MEANING["visualizer"]),
         ('**.arp.typename = "GlobalArp"', NO_MEANING["arp"]),
         ("**.*Port = 1000", NO_MEANING["app"]),
+        ('*.quads[*].app[0].destAddresses = "quads[0]"', NO_MEANING["app"]),
         ("*.quads[*].numFailures = 0", NOT_MODELLED["numFailures"]),
         ('**.wlan[*].mac.typename = "Ieee80211Mac"', NOT_MODELLED["mac"]),
         (
@@ -79,7 +80,6 @@ def test_renamed(outcome: FirstOutcome, before: str, after: str) -> None:
             NOT_MODELLED["signalAnalogRepresentation"],
         ),
         ('*.quads[*].typename = "AdhocHost"', NO_NODE_TYPE),
-        ('*.quads[*].app[0].destAddresses = "quads[0]"', NO_MEANING["app"]),
         ("*.quads[*].mobility.constraintAreaMinX = 0m", "nothing limits the area"),
         ('**.wlan[*].radio.typename = "Ieee80211ScalarRadio"', "say what its radio is"),
         ("*.quads[*].mobility.initialAltitude = 5m", "without coordinateSystemModule"),
@@ -125,8 +125,6 @@ def test_not_modelled(outcome: FirstOutcome, line: str, reason: str) -> None:
 @pytest.mark.parametrize(
     ("line", "text", "note"),
     [
-        ('*.quads[0].protocol.typename = "Dadca"', '*.quads[0].protocol.class = "FILE.py:CLASS"', "Dadca"),
-        ("*.quads[*].protocol.timeoutDuration = 3s", "*.quads[*].protocol.timeoutDuration = 3s", "attribute"),
         ('*.quads[*].mobility.waypointFile = "a.waypoints"', "", "fly-a-mission"),
         ('*.physicalEnvironment.config = xmldoc("a.xml")', '*.environment.obstacles = "FILE.geojson"', ""),
         ('*.quads[*].mobility.typename = "TurtleMobility"', "*.quads[*].mobility.typename = ...", "one of"),
@@ -161,21 +159,3 @@ def test_geographic_starts_are_relative_to_the_scene(outcome: FirstOutcome, line
         *(f"*.coordinateSystem.{each}" for each in scene),
     )
     assert found.text == f"*.sensors[1].mobility.{expected}"
-
-
-@pytest.mark.parametrize("name", ["protocolMobile", "protocolSensor", "protocolGround"])
-def test_a_protocol_in_python(outcome: FirstOutcome, name: str) -> None:
-    found = outcome(
-        f'*.quads[*].protocol.{name} = "Mobile"',
-        '*.quads[*].protocol.customProtocolLocation = "./"',
-        '*.quads[*].protocol.protocol = "zigzag"',
-        '*.quads[*].protocol.protocolFileName = "protocol_mobile"',
-    )
-    assert found.text == '*.quads[*].protocol.class = "../zigzag/protocol_mobile.py:Mobile"'
-
-
-def test_a_protocol_in_python_without_a_directory(outcome: FirstOutcome) -> None:
-    file = '*.quads[*].protocol.protocolFileName = "survey.py"'
-    found = outcome('*.quads[*].protocol.protocol = "Collector"', file)
-    assert found.text == '*.quads[*].protocol.class = "../survey.py:Collector"'
-    assert outcome(file, '*.quads[*].protocol.protocol = "Collector"').action is Action.LEFT_OUT

@@ -125,6 +125,17 @@ def test_a_file_that_is_not_understood(tmp_path: Path) -> None:
         translate(tmp_path / "omnetpp.ini", tmp_path)
 
 
+def test_a_class_to_write_is_not_inherited(translated: Translated, tmp_path: Path) -> None:
+    text = translated(
+        '[Config Base]\nnetwork = GradysNetwork\n*.quads[*].protocol.typename = "DadcaProtocol"\n'
+        '[Config Heir]\nextends = Base\n*.quads[*].protocol.typename = "OwnProtocol"\n'
+    ).text
+    (tmp_path / "translated.ini").write_text(text)
+    assert len(load_scenarios(tmp_path / "translated.ini", "Base")) == 1
+    with pytest.raises(ConfigError, match=r"nothing says which protocol quads\[0\] runs"):
+        load_scenarios(tmp_path / "translated.ini", "Heir")
+
+
 LINES = {
     "mobility": "*.node{n}.mobility.speed = {n}mps",
     "unknown": "*.node{n}.unknown{n} = {n}",
@@ -132,6 +143,7 @@ LINES = {
     "geographic": "*.node{n}.mobility.homeLatitude = 0deg\n"
     '*.node{n}.mobility.coordinateSystemModule = "coordinateSystem"',
     "protocol": '*.node{n}.protocol.protocolFileName = "quiet"\n*.node{n}.protocol.protocolMobile = "Quiet"',
+    "application": '*.node{n}.app[0].typename = "UdpBasicApp"\n*.node{n}.app[0].destAddresses = "node{n}"',
     "undefined": "*.node{n}.mobility.speed = ${{s{n}}}mps",
     "variables": "*.node{n}.mobility.speed = ${{s{n}=1, 2}}mps\n*.node{n}.mobility.initialX = ${{s{n}}}m",
     "left to the user": "*.node{n}.mobility.speed = ${{s{n}=1, 2 ! s{m}}}mps",
