@@ -11,6 +11,7 @@ import faulthandler
 import os
 import signal
 import sys
+from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import NoReturn
 
@@ -75,19 +76,31 @@ def _exit_code_of(run: int) -> int:
                 os.kill(run, FORWARDED if number == FORWARDED else _KILL)
 
 
-def end_children() -> None:
-    """Kill the children of this process until it has none that it may kill."""
-    with contextlib.suppress(ChildProcessError):  # it has none
+@contextlib.contextmanager
+def ending_children() -> Iterator[set[int]]:
+    """End the children that this process starts inside the block. Linux only.
+
+    Their own children go on if they are orphans by then. Children whose ids are added to the set stay.
+    """
+    spared = set(children())
+    try:
+        yield spared
+    finally:
+        end_children(spared)
+
+
+def end_children(spared: Collection[int] = ()) -> None:
+    """Kill the children of this process until it has none but those to spare and those of other users."""
+    with contextlib.suppress(ChildProcessError):
         while True:
-            pid, _ = os.waitpid(-1, os.WNOHANG)
-            if pid == 0:
-                killed = [child for child in _children() if _kill(child)]
-                if not killed:
-                    return
-                os.waitpid(killed[0], 0)
+            os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)  # it raises if there are none
+            killed = [child for child in children() if child not in spared and _kill(child)]
+            if not killed:
+                return
+            os.waitpid(killed[0], 0)
 
 
-def _children() -> list[int]:
+def children() -> list[int]:
     """Return the children of this process."""
     found = []
     for entry in Path("/proc").glob("[0-9]*/stat"):

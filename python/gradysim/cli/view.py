@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, OK, print_failure, say_mistake
+from gradysim.cli.guardian import children, ending_children
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import Mode, ViewOptions
 from gradysim.cli.runs import check
@@ -102,11 +103,13 @@ def show_live(file: Path, options: ViewOptions) -> int:
 
     interrupt = StopOnInterrupt(grace_s=_GRACE_S)
     try:
-        with LiveView(options.port, options.host) as live, interrupt:
+        with ending_children() as browsers, LiveView(options.port, options.host) as live, interrupt:
             with interrupt.at_once():
                 (scenario,) = check(file, options.config, str(options.run), options.settings, options.seed)
                 run = _built(scenario, options.mode, live)
+            of_protocols = children()
             _open(live.address, live.address_for_once, options)
+            browsers.update({*children()}.difference(of_protocols))
             live.wait_for_viewer(interrupt.should_stop)
             code = _executed(run, live, interrupt)
             if not interrupt.should_stop():

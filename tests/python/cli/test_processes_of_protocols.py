@@ -1,13 +1,14 @@
 """Protocols that fork, start programs or leave a running thread: one run, one result, no process left."""
 
 import json
+import os
 import signal
 import subprocess
 import sys
 
 import pytest
 
-from python.cli.command import both_modes, environment, objects, run_gradysim
+from python.cli.command import both_modes, environment, objects, run_command, run_gradysim
 from python.processes import is_running, wait_until
 from python.thorough import some
 
@@ -91,7 +92,8 @@ def test_a_run_has_one_result_whatever_its_protocol_begins(gradysim, folder, mod
         ]
 
 
-STARTS = """
+LEAVES_ITS_PARENT = "(echo $(exec sh -c 'echo $PPID'); exec sleep 97) &"
+STARTS = f"""
 import os
 import signal
 import subprocess
@@ -102,7 +104,7 @@ COMMAND = os.getpid()  # which imports this module
 PROGRAMS = (
     "echo $$; exec sleep 97",
     "exec setsid sh -c 'echo $$; exec sleep 97'",  # leaves its session
-    "(echo $(exec sh -c 'echo $PPID'); exec sleep 97) &",  # leaves its parent
+    "{LEAVES_ITS_PARENT}",
 )
 
 
@@ -156,3 +158,31 @@ def test_programs_end_when_the_time_is_over(folder):
     done = run_gradysim(folder, "run", "test.ini", "-c", "Endless", *STARTING, "--stop-after", "1h")
     assert done.returncode == 5
     assert not are_programs_running(folder)
+
+
+VIEW = """
+import subprocess, sys, webbrowser
+from gradysim.cli.app import main
+from gradysim.replay.live import LiveView
+
+def open_browser(_):
+    with open("browser", "w") as file:
+        program = subprocess.Popen(["sleep", "97"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        print(program.pid, file=file)
+
+webbrowser.open = open_browser
+LiveView.wait_for_viewer = LiveView.wait_for_the_last = lambda *_: None
+sys.exit(main())
+"""
+"""The command, with a browser that shows nothing."""
+
+
+def test_programs_end_with_a_view_and_the_browser_stays(folder):
+    program = STARTS.replace(LEAVES_ITS_PARENT, "echo $$; exec sleep 97").replace("END", "pass")
+    (folder / "starts.py").write_text(program)
+    done = run_command(folder, sys.executable, "-c", VIEW, "view", "test.ini", *STARTING)
+    assert done.returncode == 0
+    assert not are_programs_running(folder)
+    browser = int((folder / "browser").read_text())
+    assert is_running(browser)
+    os.kill(browser, signal.SIGKILL)
