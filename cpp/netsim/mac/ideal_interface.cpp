@@ -12,6 +12,15 @@
 
 namespace netsim {
 
+namespace {
+
+Links& links_of(IdealChannel& channel) {
+    NETSIM_ASSERT(channel.links.has_value());
+    return *channel.links;
+}
+
+}  // namespace
+
 IdealInterface::IdealInterface(Simulator& simulator, IdealChannel& channel, InterfaceId interface,
                                double range_m, std::optional<IdealRadio> radio, IdealTiming timing,
                                const Trajectory& trajectory, FrameFates& frame_fates,
@@ -34,7 +43,7 @@ IdealInterface::IdealInterface(Simulator& simulator, IdealChannel& channel, Inte
     }
     if (radio_) {
         const RadioModel& model = *radio_->model;
-        radio_id_ = channel.links->add(
+        radio_id_ = links_of(channel).add(
             interface,
             Receiver{nullptr,
                      &trajectory,
@@ -130,11 +139,11 @@ IdealInterface::Reach IdealInterface::reach_at(const IdealInterface& first_of_no
     Reach reach;
     double distance_m = 0;
     if (radio_) {
-        const RadioId radio = channel_.links->decoder_at(first_of_node.id_, sent);
+        const Links& links = links_of(channel_);
+        const RadioId radio = links.decoder_at(first_of_node.id_, sent);
         if (radio < 0) {
             return reach;
         }
-        const Links& links = *channel_.links;
         reach.receiver = channel_.by_radio[radio];
         const Position place = links.position(radio, sent.start);
         reach.arrival = links.arrival(sent, 1, radio, place);
