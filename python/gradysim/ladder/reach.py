@@ -47,6 +47,7 @@ def range_settings(scenario: Scenario) -> list[str]:
     """Return "KEY=VALUE" settings of the range of each interface.
 
     `scenario` has a medium with radios, the settings of `power_settings`, and neither noise nor fading.
+    Raises ConfigError, as the run does.
     """
     medium = medium_config(scenario)
     known: dict[object, Sequence[str]] = {}
@@ -55,11 +56,12 @@ def range_settings(scenario: Scenario) -> list[str]:
         key = (*map(id, spec.wlan), spec.initial_position[2])
         if key not in known:
             config = node_config(spec)
-            known[key] = [
-                f"{_range_m(budget, interface.radio.tx_power_w)!r}m"
-                for index, interface in enumerate(config.wlan)
-                for budget in [load_netsim().LinkBudget(medium, config, config, MESSAGE_BYTES, index)]
-            ]
+            with node_errors_at(spec, scenario.medium):
+                known[key] = [
+                    f"{_range_m(budget, interface.radio.tx_power_w)!r}m"
+                    for index, interface in enumerate(config.wlan)
+                    for budget in [load_netsim().LinkBudget(medium, config, config, MESSAGE_BYTES, index)]
+                ]
         values[spec.id] = known[key]
     return _settings("communicationRange", scenario.nodes, values)
 

@@ -6,6 +6,7 @@ import pytest
 
 from gradysim.integrated.calibration import calibrate
 from gradysim.ladder.campaign import Campaign
+from gradysim.scenario.errors import ConfigError
 
 FADING = '*.radioMedium.pathLoss.typename = "RayleighFading"\n'
 SHADOWING = "*.radioMedium.shadowing.standardDeviation = 4dB\n"
@@ -61,3 +62,9 @@ def test_the_range_of_a_unit_disk_stays_as_it_is(make_campaign: Callable[..., Ca
     campaign = make_campaign(file=disk)
     assert ranges_m(campaign) == [100] * 3
     assert ranges_m(campaign, frozenset()) == [1e9] * 3
+
+
+def test_a_value_that_the_engine_rejects_has_its_line(make_campaign: Callable[..., Campaign]) -> None:
+    campaign = make_campaign('**.wlan[*].opMode="b"', file="**.wlan[*].bitrate = 54Mbps\n")
+    with pytest.raises(ConfigError, match=r"test\.ini:\d+: .*a bitrate of b, which has 1, 2, 5\.5, 11 Mbps"):
+        campaign.scenario(campaign.all_effects, 0)
