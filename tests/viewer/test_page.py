@@ -245,7 +245,9 @@ def test_a_run_is_shown_while_it_goes_on(zigzag, browser):
     ),
 )
 def test_a_run_that_is_ended_says_so(browser, keys, number, text):
-    with viewing(ROOT / "configs/zigzag.ini", "-c", "ZigZag5Synchronised") as (view, address):
+    # So long that it has not ended before the page has sent its first clock.
+    endless = "--set", "sim-time-limit=5000000s"
+    with viewing(ROOT / "configs/zigzag.ini", "-c", "ZigZag5Synchronised", *endless) as (view, address):
         said = browser(None, url=address, after=1, keys=keys, kill=[view.pid, number.name], until=text)
         assert view.wait(2) in (128 + number, -number)
     assert said["console"] == []
