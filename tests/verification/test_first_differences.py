@@ -1,7 +1,7 @@
 """Does the first difference between two runs name the callbacks that a flaw of timing is about?
 
 Each protocol runs twice with one seed: without and with the effect that breaks it. The expected times follow
-from the timers of the protocols. They were written down before the comparison of callbacks existed.
+from the timers of the protocols. The callbacks were added after the first output had been seen.
 """
 
 from dataclasses import dataclass
