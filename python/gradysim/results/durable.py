@@ -32,6 +32,23 @@ def finished_name(name: str) -> str | None:
     return found["name"] if found else None
 
 
+@contextlib.contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Add the name of a file to an OSError that has none, such as that of a failed read."""
+    try:
+        yield
+    except OSError as error:
+        if error.filename is None:
+            error.filename = str(path)
+        raise
+
+
+def bytes_in(path: Path) -> bytes:
+    """Return the content of a file. Raises OSError with its name, also if a read fails."""
+    with naming(path):
+        return path.read_bytes()
+
+
 def check_replaceable(path: Path) -> None:
     """Raise OSError if something is at `path` that is not a regular file, such as a pipe or a directory."""
     try:
@@ -42,10 +59,11 @@ def check_replaceable(path: Path) -> None:
 
 
 @contextlib.contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def replacing(path: Path, *, synced: bool = True) -> Iterator[Path]:
     """Yield the name for a new file, which then replaces `path` as a whole or not at all.
 
-    Missing directories are created. Raises OSError, with the name of the file, if it cannot be written.
+    Missing directories are created. Unless `synced`, the caller syncs the file system after several files.
+    Raises OSError, with the name of the file, if it cannot be written.
     """
     check_replaceable(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -53,7 +71,10 @@ def replacing(path: Path) -> Iterator[Path]:
     try:
         unfinished.unlink(missing_ok=True)  # left by a killed process with the same id
         yield unfinished
-        finish(path)
+        if synced:
+            finish(path)
+        else:
+            unfinished.replace(path)
     except BaseException as error:
         with contextlib.suppress(OSError):  # a read-only directory
             unfinished.unlink(missing_ok=True)
@@ -81,9 +102,7 @@ def finish(path: Path) -> None:
 def _sync(path: Path, flags: int) -> None:
     descriptor = os.open(path, flags)
     try:
-        os.fsync(descriptor)
-    except OSError as error:
-        error.filename = str(path)  # a descriptor has no name
-        raise
+        with naming(path):
+            os.fsync(descriptor)
     finally:
         os.close(descriptor)

@@ -9,6 +9,8 @@ import os
 from functools import lru_cache
 from pathlib import Path
 
+from gradysim.results.durable import naming
+
 _BEGIN = b"\ngradysim, SHA-256 above: "
 _HASH_BYTES = 2 * hashlib.sha256().digest_size
 LINE_BYTES = len(_BEGIN) + _HASH_BYTES + 1
@@ -53,7 +55,7 @@ def _verify(path: Path, *_state: int) -> None:
 
 
 def _last_line(path: Path) -> bytes:
-    with path.open("rb") as file:
+    with naming(path), path.open("rb") as file:
         size = file.seek(0, os.SEEK_END)
         file.seek(max(0, size - LINE_BYTES))
         return file.read()
@@ -63,7 +65,7 @@ def _line(path: Path, size: int) -> bytes:
     """Return the last line for the first `size` bytes of a file."""
     found = hashlib.sha256()
     block = memoryview(bytearray(_BLOCK_BYTES))
-    with path.open("rb", buffering=0) as file:
+    with naming(path), path.open("rb", buffering=0) as file:
         while size > 0 and (count := file.readinto(block[: min(size, _BLOCK_BYTES)])):
             found.update(block[:count])
             size -= count

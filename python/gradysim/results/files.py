@@ -1,13 +1,15 @@
 """Result files of runs, DIR/CONFIG-#RUN.MODE.json: their names, writing them, and `--resume`."""
 
+import errno
 import hashlib
 import json
+import os
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, get_args
 
-from gradysim.results.durable import replacing
+from gradysim.results.durable import bytes_in, replacing
 from gradysim.results.pack import packed_bytes
 from gradysim.results.result import Mode, RunResult, plain_iterations
 from gradysim.scenario.runs import HASH_DIGITS, hash_of
@@ -135,7 +137,7 @@ def write_run_file(result: RunResult, directory: Path, written: Iterable[Path] =
     processes may read or write it. Raises OSError, with the name of the file, if it cannot be written.
     """
     path = run_file(directory, result.config, result.run, result.mode)
-    hashes = {file.name: found for file in written if (found := hash_of(file))}
+    hashes = {file.name: _hash_of_written(file) for file in written}
     content = {**result.to_json_object(), "output_hashes": hashes, CHECKSUM: ""}
     text = json.dumps(content, indent=2) + "\n"
     with replacing(path) as unfinished:
@@ -178,7 +180,7 @@ def parsed(content: bytes) -> dict[str, Any]:
 def bytes_of(file: Path) -> bytes:
     """Return the content of a result file, which may be in a pack. Raises OSError."""
     try:
-        return file.read_bytes()
+        return bytes_in(file)
     except (FileNotFoundError, NotADirectoryError):
         packed = packed_bytes(file)
         if packed is None:
@@ -189,6 +191,13 @@ def bytes_of(file: Path) -> bytes:
 def hash_of_run_file(file: Path) -> str:
     """Return the hash of a result file, which may be in a pack. Raises OSError."""
     return _hash(bytes_of(file))
+
+
+def _hash_of_written(file: Path) -> str:
+    found = hash_of(file)
+    if not found:
+        raise OSError(errno.EIO, os.strerror(errno.EIO), str(file))
+    return found
 
 
 def _hash_of_text(text: str) -> str:

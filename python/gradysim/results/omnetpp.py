@@ -162,12 +162,8 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
 
     with replacing(path) as unfinished:
         try:
-            connection = sqlite3.connect(unfinished, isolation_level=None)
+            connection = open_unfinished(unfinished)
             try:
-                # No other process opens the file before it is complete, and an incomplete one is deleted.
-                connection.execute("PRAGMA journal_mode = OFF")
-                connection.execute("PRAGMA synchronous = OFF")
-                connection.execute("BEGIN")
                 create_tables(connection, TABLES)
                 insert_run(connection, identity)
                 yield connection
@@ -176,6 +172,17 @@ def new_database(path: Path, identity: RunIdentity) -> Iterator["sqlite3.Connect
                 connection.close()
         except sqlite3.Error as error:
             raise OSError(errno.EIO, str(error), str(path)) from error
+
+
+def open_unfinished(path: Path) -> "sqlite3.Connection":
+    """Open an unfinished database in a transaction. An incomplete one is deleted, so it needs no journal."""
+    import sqlite3
+
+    # No other process opens it, so it needs no lock, which some file systems do not have.
+    connection = sqlite3.connect(f"{path.resolve().as_uri()}?nolock=1", uri=True, isolation_level=None)
+    for command in ("PRAGMA journal_mode = OFF", "PRAGMA synchronous = OFF", "BEGIN"):
+        connection.execute(command)
+    return connection
 
 
 def create_tables(connection: "sqlite3.Connection", tables: Mapping[str, Mapping[str, str]]) -> None:

@@ -166,15 +166,15 @@ def _opened(path: Path) -> Iterator["sqlite3.Connection"]:
         with opened_pack(path) as connection:
             yield connection
         return
-    connection = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)
+    # Files are replaced as a whole, never changed, so that no lock is needed.
+    uri = f"{path.resolve().as_uri()}?mode=ro&immutable=1"
     try:
-        if connection.execute("SELECT 1 FROM sqlite_schema WHERE name LIKE 'packed%'").fetchall():
-            verify_checksum(path)
-        yield connection
+        with contextlib.closing(sqlite3.connect(uri, uri=True)) as connection:
+            if connection.execute("SELECT 1 FROM sqlite_schema WHERE name LIKE 'packed%'").fetchall():
+                verify_checksum(path)
+            yield connection
     except (OSError, MemoryError):
         raise
     except Exception as error:  # of SQLite, or about a value that it returned
         reason = str(error) or type(error).__name__
         raise ValueError(f"{path}: {reason}; expected a file of OMNeT++'s results in SQLite") from error
-    finally:
-        connection.close()

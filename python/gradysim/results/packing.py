@@ -11,10 +11,10 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.results.durable import check_replaceable, replacing, unfinished_file
+from gradysim.results.durable import bytes_in, check_replaceable, replacing
 from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp import TABLES as OMNETPP_TABLES
-from gradysim.results.omnetpp import RunIdentity, create_tables, insert_run, storable
+from gradysim.results.omnetpp import RunIdentity, create_tables, insert_run, open_unfinished, storable
 from gradysim.results.pack import (
     DEFAULT_NAME,
     PACKS,
@@ -92,10 +92,9 @@ def unpack(directory: Path, packs: Iterable[Path], *, remove: bool = False) -> i
         for each in packs:
             for name, state, content in packed_texts(each):
                 if newest[name] == state and name not in loose and name not in written:
-                    unfinished = unfinished_file(directory / name)
-                    unfinished.write_bytes(content)
-                    os.utime(unfinished, ns=(state.time_ns, state.time_ns))
-                    unfinished.replace(directory / name)
+                    with replacing(directory / name, synced=False) as unfinished:
+                        unfinished.write_bytes(content)
+                        os.utime(unfinished, ns=(state.time_ns, state.time_ns))
                     written[name] = _digest(content)
         if remove:
             if hasattr(os, "sync"):
@@ -108,7 +107,7 @@ def unpack(directory: Path, packs: Iterable[Path], *, remove: bool = False) -> i
 
 def _check_unpacked(file: Path, digest: bytes | None) -> None:
     """Raise OSError unless a file has what was written, or was there before with a result."""
-    content = file.read_bytes()
+    content = bytes_in(file)
     if digest is None and result_of(content, file) is None:
         raise OSError(errno.EIO, "not a result; expected the one in the packs, which stay", str(file))
     if digest not in (None, _digest(content)):
@@ -129,7 +128,7 @@ def _packed_copies(
     packed = {name: (state, _digest(content)) for name, state, content in packed_texts(file)}
     copies = [name for name in loose if name in packed and packed[name][0] == loose[name]]
     for name in copies:
-        if _digest((directory / name).read_bytes()) != packed[name][1]:
+        if _digest(bytes_in(directory / name)) != packed[name][1]:
             problem = f"not as it was packed in {file}; nothing was removed"
             raise OSError(errno.EIO, problem, str(directory / name))
     for each in others:
@@ -164,7 +163,7 @@ def _contents(
 ) -> Iterator[Content]:
     """Yield the wanted result files: loose ones, then those in packs."""
     for name in sorted(wanted.keys() & loose.keys()):
-        yield name, loose[name], (directory / name).read_bytes()
+        yield name, loose[name], bytes_in(directory / name)
     left = {name: state for name, state in wanted.items() if name not in loose}
     for each in packs:
         for name, state, content in packed_texts(each):
@@ -190,7 +189,7 @@ def _write(file: Path, contents: Iterable[Content], directory: Path) -> int:
             shutil.copyfile(file, unfinished)
             remove_checksum(unfinished)
         try:
-            connection = sqlite3.connect(unfinished, isolation_level=None)
+            connection = open_unfinished(unfinished)
             try:
                 added = _Writer(connection).add(chain([first], results))
             finally:
@@ -206,9 +205,6 @@ class _Writer:
 
     def __init__(self, connection: "sqlite3.Connection") -> None:
         self._connection = connection
-        connection.execute("PRAGMA journal_mode = OFF")  # an incomplete pack is deleted
-        connection.execute("PRAGMA synchronous = OFF")
-        connection.execute("BEGIN")
         if not connection.execute("SELECT 1 FROM sqlite_schema LIMIT 1").fetchall():
             create_tables(connection, {**OMNETPP_TABLES, **TABLES})
         query = connection.execute("SELECT * FROM packedConditions")

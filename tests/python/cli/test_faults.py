@@ -1,31 +1,42 @@
-"""Each write, fsync and rename of a run fails once, or the process is killed there."""
+"""System calls of each command fail, one after the other: `make torture` tries all of them."""
 
-import errno
-from itertools import count
+import shutil
+import sys
 
 import pytest
 
-from python.torture.faults import EARLIER, Fault, do_harm
+pytest.importorskip("gradysim._netsim")
 
-LEAST_CALLS = 14
-"""Two times four for the result, three for scalars, three for vectors."""
+from python.torture.bad_disk import FAULTS, BadDisk
+from python.torture.faults import CASES, Bench
+from python.torture.study import OUT
+
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux" or shutil.which("cc") is None, reason="it preloads a library, which it compiles"
+)
+
+STEP = 7
+
+SAMPLE = {"run": "KILL", "run --replace": "ENOSPC"}
+"""Faults of `make test`. All others are EIO."""
 
 
-def test_old_or_new_results_remain_wherever_the_harm_is_done(tmp_path):
-    assert_nothing_is_lost(tmp_path, [lambda number: number % 2 == 0], EARLIER[0])
+@pytest.fixture(scope="module")
+def disk():
+    with BadDisk(OUT) as disk:
+        yield disk
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_fault_in_the_middle_loses_nothing(name, disk, tmp_path):
+    bench, fault = Bench(name, tmp_path, disk), SAMPLE.get(name, "EIO")
+    assert bench.check(fault, bench.calls(fault) // 2).failed > 0
 
 
 @pytest.mark.verify
-@pytest.mark.parametrize("earlier", EARLIER)
-def test_old_or_new_results_remain_whatever_the_harm_is(tmp_path, earlier):
-    assert_nothing_is_lost(tmp_path, [lambda _: False, lambda _: True], earlier)
-
-
-def assert_nothing_is_lost(folder, ways, earlier):
-    for way, kills in enumerate(ways):
-        for number in count(1):
-            place = folder / f"{way}-{number}"
-            place.mkdir()
-            if not do_harm(place, Fault(number, kills(number), errno.ENOSPC), earlier):
-                break
-        assert number > LEAST_CALLS
+@pytest.mark.parametrize("fault", FAULTS)
+@pytest.mark.parametrize("name", CASES)
+def test_no_fault_loses_anything(name, fault, disk, tmp_path):
+    bench = Bench(name, tmp_path, disk)
+    for at in range(1, bench.calls(fault) + 1, STEP):
+        bench.check(fault, at)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.results.durable import finished_name, replacing, unfinished_file
+from gradysim.results.durable import bytes_in, finished_name, replacing, unfinished_file
 
 
 def write(path: Path, text: str) -> None:
@@ -75,3 +75,13 @@ def test_unfinished_files_are_known_by_their_names(name):
 @pytest.mark.parametrize("name", ["A-#0.integrated.json", "notes.1234", "a.json.old", ".gradysim.lock"])
 def test_other_files_are_not_unfinished(name):
     assert finished_name(name) is None
+
+
+def test_a_failed_read_names_the_file(tmp_path, monkeypatch):
+    def read(_):
+        raise OSError(errno.EIO, "bad disk")  # as of a read, which knows a descriptor only
+
+    monkeypatch.setattr(Path, "read_bytes", read)
+    with pytest.raises(OSError, match="bad disk") as raised:
+        bytes_in(tmp_path / "a.json")
+    assert raised.value.filename == str(tmp_path / "a.json")

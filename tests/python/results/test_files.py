@@ -67,11 +67,19 @@ def test_result_files_are_known_by_their_names(name, is_result):
     assert is_run_file(name) == is_result
 
 
-def test_it_names_the_other_files_of_the_run_that_are_there(tmp_path):
+def test_it_names_the_other_files_of_the_run(tmp_path):
     (tmp_path / "a.pcap").write_bytes(b"frames")
-    path = write_run_file(RESULT, tmp_path, [tmp_path / "a.pcap", tmp_path / "missing.pcap"])
+    path = write_run_file(RESULT, tmp_path, [tmp_path / "a.pcap"])
     hashes = json.loads(path.read_text(encoding="utf-8"))["output_hashes"]
     assert hashes == {"a.pcap": sha256(b"frames").hexdigest()[:16]}
+
+
+def test_another_file_of_the_run_that_cannot_be_read_is_an_error(tmp_path):
+    missing = tmp_path / "missing.pcap"
+    with pytest.raises(OSError, match=r"missing\.pcap") as raised:
+        write_run_file(RESULT, tmp_path, [missing])
+    assert raised.value.filename == str(missing)
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_missing_directory_is_made(tmp_path):

@@ -1,5 +1,6 @@
 """Kinds of faults of `make torture`, and of the short tests."""
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -15,6 +16,7 @@ KINDS: dict[str, Once] = {
     "hostile clients": clients.once,
     "kills": kills.once,
     "signals": signals.once,
-    "faults of the disk": faults.once,
     "damaged packs": damage.once,
 }
+if sys.platform == "linux":
+    KINDS["faults of the disk"] = faults.once

@@ -12,6 +12,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+from gradysim.results.files import is_run_file
 from python.processes import session, wait_until
 
 OUT = "out"
@@ -99,11 +100,19 @@ def undisturbed() -> tuple[dict[str, Any], float]:
 
 def content_of(directory: Path) -> dict[str, Any]:
     """Return the common content of two runs, for each file."""
-    return {file.name: _READERS.get(file.suffix, Path.read_bytes)(file) for file in directory.iterdir()}
+    return {file.name: content_of_file(file) for file in directory.iterdir()}
 
 
-def _result(file: Path) -> dict[str, Any]:
-    content = json.loads(file.read_text())
+def content_of_file(file: Path) -> Any:
+    """Return the content of a file without what differs between two runs."""
+    if is_run_file(file.name):
+        return content_of_result(file.read_bytes())
+    return _rows(file) if file.suffix in (".sca", ".vec") else file.read_bytes()
+
+
+def content_of_result(text: bytes) -> dict[str, Any]:
+    """Return the content of a file of results without what differs between two runs."""
+    content = json.loads(text)
     hashes = content["output_hashes"]
     kept = {name: hashes[name] for name in hashes if Path(name).suffix not in (".sca", ".vec")}
     return {**{name: content[name] for name in content if name not in COSTS}, "output_hashes": kept}
@@ -122,9 +131,6 @@ def _rows(file: Path) -> dict[str, list[Any]]:
     rows["runAttr"] = [row for row in rows["runAttr"] if row[1] not in _IDENTITY]
     rows["scalar"] = [row for row in rows["scalar"] if row[3] not in _COSTS_OF_OMNETPP]
     return rows
-
-
-_READERS = {".json": _result, ".sca": _rows, ".vec": _rows}
 
 
 def assert_resume_completes(folder: Path, random: Random) -> None:
