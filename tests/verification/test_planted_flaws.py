@@ -84,7 +84,12 @@ FLAWS = (
     Flaw("OneHop", "base reports >= 95", "range", {"range"}),
     # Capture hides the flaw again at the levels above.
     Flaw(
-        "TwoBeacons", "base near >= 190", "interference", {"range", "airtime", "interference"}, "synchronized"
+        "TwoBeacons",
+        "base near >= 190",
+        "interference",
+        {"range", "airtime", "interference"},
+        "synchronized",
+        ("far beacon", "near beacon"),
     ),
 )
 
