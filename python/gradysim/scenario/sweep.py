@@ -100,30 +100,52 @@ class IterationVariable:
 def name_iterations(entries: Iterable[Entry]) -> tuple[list[Entry], list[IterationVariable]]:
     """Return the entries with `${NAME}` for each variable, and the variables in search order.
 
-    If an earlier entry has the same key, word for word, an entry is never in force: it is left out, with its
-    variables. An override thus fixes what the file iterates over.
+    If an earlier entry has the same key, word for word, an entry is never in force: it is left out. So are
+    its variables, unless another entry reads them. An override thus fixes what the file iterates over.
 
     Raises:
         ConfigError: Variables are not understood, or defined twice; all of them are reported.
     """
     named: list[Entry] = []
-    left_out: list[Entry] = []
     variables: dict[str, IterationVariable] = {}
-    seen: set[str] = set()
     errors = ErrorCollector()
-    for entry in entries:
+    first: dict[str, Entry] = {}
+    swept = [(entry, first.setdefault(entry.key, entry) is entry) for entry in entries]
+    wanted = _read_elsewhere(first.values())
+    for entry, in_force in swept:
         if "${" not in entry.text or is_ignored(entry):
             named.append(entry)
-        elif entry.key not in seen:
+        elif in_force or wanted.intersection(_names_in(entry)[0]):
             with errors.collecting():
-                named.append(_with_names(entry, variables))
-        else:
-            left_out.append(entry)
-        seen.add(entry.key)
+                with_names = _with_names(entry, variables)
+                wanted.difference_update(variables)
+                if in_force:
+                    named.append(with_names)
     if not errors.errors:  # the names of variables that are not understood would be unknown
-        _check_names(named, variables, left_out, errors)
+        _check_names(named, variables, errors)
     errors.raise_all()
     return named, list(variables.values())
+
+
+def _read_elsewhere(entries: Iterable[Entry]) -> set[str]:
+    """Return the names that entries read, and that none of them defines."""
+    defined, read = set[str](), set[str]()
+    for entry in entries:
+        if "${" in entry.text and not is_ignored(entry):
+            for names, found in zip((defined, read), _names_in(entry), strict=True):
+                names.update(found)
+    return read - defined
+
+
+def _names_in(entry: Entry) -> tuple[set[str], set[str]]:
+    """Return the names that an entry defines, and those that it reads."""
+    defined, read = set[str](), set[str]()
+    for content in _VARIABLE.findall(entry.text):
+        if definition := _DEFINITION.fullmatch(content):
+            defined.add(definition[1])
+        leader = _LOCK_STEP.fullmatch(content)
+        read.add(leader[2] if leader else content.strip())
+    return defined, read
 
 
 def _with_names(entry: Entry, variables: dict[str, IterationVariable]) -> Entry:
@@ -239,7 +261,6 @@ def _values_of_range(part: str, *numbers: str) -> Iterator[str]:
 def _check_names(
     named: Iterable[Entry],
     variables: Mapping[str, IterationVariable],
-    left_out: Sequence[Entry],
     errors: ErrorCollector,
 ) -> None:
     """Report names that are not variables."""
@@ -247,7 +268,7 @@ def _check_names(
     for entry in named:
         for name in [] if is_ignored(entry) else _VARIABLE.findall(entry.text):
             if name not in variables and name not in PREDEFINED:
-                errors.add(_unknown(entry.source, name, known, left_out))
+                errors.add(_unknown(entry.source, name, known))
     for variable in variables.values():
         leader = variable.follows
         if leader in PREDEFINED and leader != REPETITION:
@@ -255,16 +276,10 @@ def _check_names(
             problem = f"`{leader}` has no list of values; {expected}"
             errors.add(ConfigError.at(variable.source, problem))
         elif leader and leader not in (*variables, REPETITION):
-            errors.add(_unknown(variable.source, leader, known, left_out))
+            errors.add(_unknown(variable.source, leader, known))
 
 
-def _unknown(source: Source, name: str, known: Sequence[str], left_out: Sequence[Entry]) -> ConfigError:
-    for entry in left_out:
-        if re.search(rf"\$\{{\s*{name}\s*=", entry.text):
-            problem = f"`{name}` has its values at {entry.source}"
-            problem += f", which another value of `{entry.key}` overrides"
-            expected = f"a value here that does without it, or `${{{name}=...}}` there"
-            return ConfigError.at(source, problem, expected=expected)
+def _unknown(source: Source, name: str, known: Sequence[str]) -> ConfigError:
     listed = ", ".join(f"`${{{other}}}`" for other in known)
     expected = f"one of {listed}, or values such as `${{{name}=1, 2, 5}}`"
     problem = f"there is no variable `{name}`"

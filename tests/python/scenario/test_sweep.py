@@ -84,12 +84,17 @@ def test_a_line_that_another_one_overrides_iterates_over_nothing() -> None:
     assert [variable.values for variable in variables] == [("3", "4")]
 
 
-def test_who_needs_the_variable_of_an_overridden_line_is_told_where_it_is() -> None:
+def test_the_variable_of_an_overridden_line_remains_for_others() -> None:
     written = [entry("5"), entry("${x=1,2}", line=9), entry("${x}", "**.other", 10)]
-    with pytest.raises(ConfigError) as caught:
-        name_iterations(written)
-    assert caught.value.line == 10
-    assert "a.ini:9" in str(caught.value)
+    entries, variables = name_iterations(written)
+    assert [entry.text for entry in entries] == ["5", "${x}"]
+    assert [variable.values for variable in variables] == [("1", "2")]
+
+
+def test_another_value_of_a_variable_replaces_that_of_an_overridden_line() -> None:
+    written = [entry("${x=5}"), entry("${x=1,2}", line=9), entry("${x}", "**.other", 10)]
+    _, variables = name_iterations(written)
+    assert [variable.values for variable in variables] == [("5",)]
 
 
 def test_what_is_ignored_iterates_over_nothing() -> None:
