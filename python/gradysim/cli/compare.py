@@ -16,7 +16,7 @@ from gradysim.cli.study import check_quantities, conditions, read_study, warn_of
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from gradysim.results.compare import Change
+    from gradysim.results.compare import Change, Pairs
     from gradysim.results.confidence_interval import Estimate
     from gradysim.results.run_table import Runs
 
@@ -74,6 +74,7 @@ def compare(
         return say_mistake(mistake)
     for directory, runs in {side.directory: side.runs for side in (before, after)}.items():
         warn_of_mixed_runs(directory, runs)
+    warn_of_ranges(pairs)
     for side, other, left_out in zip((before, after), (after, before), pairs.left_out, strict=True):
         if left_out:
             print(
@@ -95,6 +96,23 @@ def compare(
         figure, numbers, origin = files
         print(f"drawn in {figure}; numbers in {numbers}, origin in {origin}")
     return OK
+
+
+def warn_of_ranges(pairs: "Pairs") -> None:
+    """Warn if runs of the two modes have different ranges: then that explains what differs."""
+    from gradysim.scenario.ranges import are_alike
+
+    for first, second in pairs.runs:
+        one_m, other_m = first.number("range_m"), second.number("range_m")
+        if first.mode == second.mode or one_m is None or other_m is None or are_alike(one_m, other_m):
+            continue
+        print(
+            f"warning: in run {first.run} nodes reach {one_m:.4g} m in {first.mode} mode, and"
+            f" {other_m:.4g} m in {second.mode} mode; expected one range for both, such as"
+            f" `**.wlan[*].radio.transmitter.communicationRange = {min(one_m, other_m):.4g}m`",
+            file=sys.stderr,
+        )
+        return
 
 
 def _sides(first: Path, second: Path | None, options: CompareOptions) -> tuple[Side, Side]:

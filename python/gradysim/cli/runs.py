@@ -87,6 +87,7 @@ def warnings_of_seeds(study: "Study") -> Iterator[str]:
 
 def findings_of(scenarios: "Sequence[Scenario]", mode: str) -> "list[Finding]":
     """Return the lint findings in the lines of a configuration, in their order."""
+    from gradysim.integrated.ranges import lint_ranges
     from gradysim.scenario.lint import by_line, lint
 
     findings = lint(scenarios)
@@ -94,4 +95,5 @@ def findings_of(scenarios: "Sequence[Scenario]", mode: str) -> "list[Finding]":
         from gradysim.integrated.network_lint import lint_networks
 
         findings += lint_networks(scenarios)
+    findings += lint_ranges(scenarios, mode)
     return by_line(findings)

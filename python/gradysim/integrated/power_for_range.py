@@ -1,5 +1,6 @@
 """Transmission powers of interfaces that have a range instead."""
 
+import math
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
@@ -10,7 +11,7 @@ from gradysim.scenario.keys import DEFAULT_INTERFACE, has_radios
 from gradysim.scenario.node_spec import NodeSpec
 
 if TYPE_CHECKING:
-    from gradysim._netsim import MediumConfig, NodeConfig
+    from gradysim._netsim import LinkBudget, MediumConfig, NodeConfig
 
 RATIO = 0.5
 MESSAGE_BYTES = 50
@@ -18,6 +19,22 @@ MESSAGE_BYTES = 50
 
 _LEAST_MTU_BYTES = MESSAGE_BYTES + 28
 """With the headers of IPv4 and UDP."""
+
+_NEAREST_M, _FARTHEST_M = 1e-3, 1e9
+_STEPS = 60
+"""Halvings of the logarithmic interval of distances; the last one is about as wide as a float is accurate."""
+
+
+def range_of(budget: "LinkBudget", tx_power_w: float) -> float:
+    """Return the largest distance at which half of the frames arrive. The ratio falls with the distance."""
+    near, far = math.log(_NEAREST_M), math.log(_FARTHEST_M)
+    for _ in range(_STEPS):
+        middle = (near + far) / 2
+        if budget.reception_ratio(math.exp(middle), tx_power_w) >= RATIO:
+            near = middle
+        else:
+            far = middle
+    return math.exp(near)
 
 
 class PowersForRanges:

@@ -21,8 +21,9 @@ from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
+from gradysim.integrated.ranges import ranges_m
 from gradysim.integrated.real_time import RealTimeRun
-from gradysim.integrated.replay import EngineRecorder, VariableListener, ranges_m
+from gradysim.integrated.replay import EngineRecorder, VariableListener
 from gradysim.protocol.errors import NativeProtocolError, add_protocol_note
 from gradysim.protocol.interface import IProtocol
 from gradysim.replay.chunk import RawChunk
@@ -36,6 +37,7 @@ from gradysim.results.result import RunResult
 from gradysim.results.run_log import RecordEvent
 from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.parameters import parametrize
+from gradysim.scenario.ranges import mean_range_m
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor
@@ -232,6 +234,7 @@ class IntegratedRun(ScenarioRun):
             "events": network.event_count,
             "fingerprint": network.fingerprint,
             "fates": {"frames": network.frame_fates(), "messages": network.message_fates()},
+            "range_m": mean_range_m(ranges_m(self._scenario)),
             "message_delays": {kind: Delays(**delays) for kind, delays in network.message_delays().items()},
         }
 

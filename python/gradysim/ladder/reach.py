@@ -5,24 +5,15 @@ frames arrive without noise, fading and interference. The power of each radio is
 levels, even if the file sets a range and a level leaves out what the power depends on.
 """
 
-import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import medium_config, node_config, node_errors_at
-from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
+from gradysim.integrated.power_for_range import MESSAGE_BYTES, PowersForRanges, range_of
 from gradysim.results.tracked_variables import group_of
 from gradysim.scenario.keys import has_radios
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
-
-if TYPE_CHECKING:
-    from gradysim._netsim import LinkBudget
-
-_NEAREST_M, _FARTHEST_M = 1e-3, 1e9
-_STEPS = 60
-"""Halvings of the logarithmic interval of distances; the last one is about as wide as a float is accurate."""
 
 
 def power_settings(scenario: Scenario) -> list[str]:
@@ -58,24 +49,12 @@ def range_settings(scenario: Scenario) -> list[str]:
             config = node_config(spec)
             with node_errors_at(spec, scenario.medium):
                 known[key] = [
-                    f"{_range_m(budget, interface.radio.tx_power_w)!r}m"
+                    f"{range_of(budget, interface.radio.tx_power_w)!r}m"
                     for index, interface in enumerate(config.wlan)
                     for budget in [load_netsim().LinkBudget(medium, config, config, MESSAGE_BYTES, index)]
                 ]
         values[spec.id] = known[key]
     return _settings("communicationRange", scenario.nodes, values)
-
-
-def _range_m(budget: "LinkBudget", tx_power_w: float) -> float:
-    """Return the largest distance at which half of the frames arrive. The ratio falls with the distance."""
-    near, far = math.log(_NEAREST_M), math.log(_FARTHEST_M)
-    for _ in range(_STEPS):
-        middle = (near + far) / 2
-        if budget.reception_ratio(math.exp(middle), tx_power_w) >= RATIO:
-            near = middle
-        else:
-            far = middle
-    return math.exp(near)
 
 
 def _settings(parameter: str, nodes: Sequence[NodeSpec], values: Mapping[int, Sequence[str]]) -> list[str]:

@@ -17,6 +17,7 @@ from gradysim.results.delays import constant_delays
 from gradysim.results.result import RunResult
 from gradysim.results.run_log import RecordEvent
 from gradysim.results.scenario_run import ScenarioRun
+from gradysim.scenario.ranges import mean_range_m, ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler
 
@@ -75,9 +76,7 @@ class PrototypeRun(ScenarioRun):
         return node.protocol_encapsulator, node
 
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
-        nodes = self._scenario.nodes
-        ranges_m = [self._scenario.communication_medium.transmission_range_m] * len(nodes)
-        return describe(self._scenario, self.mode, recorded, ranges_m)
+        return describe(self._scenario, self.mode, recorded, ranges_of_prototype_m(self._scenario))
 
     def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
         assert self._recorder is not None
@@ -108,6 +107,7 @@ class PrototypeRun(ScenarioRun):
             "events": simulator.iteration,
             "fingerprint": None,
             "fates": {"copies": ledger.copy_fates(), "messages": ledger.message_fates()},
+            "range_m": mean_range_m(ranges_of_prototype_m(self._scenario)),
             "message_delays": {
                 kind: constant_delays(counts)
                 for kind, counts in ledger.delays().items()

@@ -17,6 +17,7 @@ from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_inte
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.paths import path_of
+from gradysim.scenario.ranges import ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger
 from gradysim.simulator.handler.interface import INodeHandler
@@ -52,7 +53,7 @@ def build_simulation(
     world = "its {label} handler follows from the scenario"
     given = handlers_by_label(handlers, "prototype mode", world, asynchronous=True)
     ledger = DeliveryLedger()
-    communication = CommunicationHandler(communication_medium(scenario), ledger)
+    communication = communication_handler(scenario, ledger)
     builder = SimulationBuilder(
         SimulationConfiguration(
             duration=scenario.sim_time_limit_s,
@@ -96,7 +97,7 @@ def check_scenario(scenario: Scenario) -> None:
     Building the simulation makes the same checks. Use this function to check a study before its first run.
     """
     check_protocols(scenario)
-    communication_medium(scenario)
+    communication_handler(scenario)
     mobility_handler(scenario)
 
 
@@ -137,15 +138,21 @@ def update_rate_s(nodes: Iterable[NodeSpec]) -> float:
     return max(min([UPDATE_S, *intervals_s]), LEAST_TELEMETRY_INTERVAL_S)
 
 
-def communication_medium(scenario: Scenario) -> CommunicationMedium:
-    """Return the medium of the network. Raises ConfigError when a value is outside its range."""
+def communication_handler(scenario: Scenario, ledger: DeliveryLedger | None = None) -> CommunicationHandler:
+    """Return the handler of messages. Raises ConfigError when a value of the medium is outside its range."""
     spec = scenario.communication_medium
+    ranges_m = ranges_of_prototype_m(scenario)
     try:
-        return CommunicationMedium(
-            transmission_range=spec.transmission_range_m, delay=spec.delay_s, failure_rate=spec.failure_rate
-        )
+        media = {
+            range_m: CommunicationMedium(range_m, spec.delay_s, spec.failure_rate)
+            for range_m in set(ranges_m)
+        }
     except ValueError as error:
         raise ConfigError(f"{scenario.file}: *.communicationMedium: {error}") from error
+    handler = CommunicationHandler(media[ranges_m[0]], ledger)
+    if len(media) > 1:
+        handler.medium_of = dict(enumerate(map(media.__getitem__, ranges_m)))
+    return handler
 
 
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:

@@ -256,6 +256,15 @@ class RunResult:
             to_json=dict,
         ),
     ] = field(default_factory=dict)
+    range_m: Annotated[
+        float | None,
+        Quantity(
+            "Range of a node, the mean over all nodes: the distance at which half of its messages of 50 B"
+            " arrive. `null` if it is unlimited.",
+            unit="m",
+            scalar="range",
+        ),
+    ] = None
     setup_s: Annotated[
         float,
         Quantity(

@@ -358,10 +358,10 @@ COMMUNICATION_MEDIUM_KEYS: tuple[Key, ...] = (
     _communication_medium(
         "transmissionRange",
         quantity("m", at_least=0),
-        "Prototype mode: distance up to which a message arrives. Radios of integrated mode reach "
-        "786 m by default; wlan[*].radio.transmitter.communicationRange = 60m gives them the "
-        "same range",
-        f"{TRANSMISSION_RANGE_M:g}m",
+        "Prototype mode: distance up to which a message arrives. By default the sender's "
+        f"wlan[0].radio.transmitter.communicationRange, which both modes read, or {TRANSMISSION_RANGE_M:g}m "
+        "without one. Radios of integrated mode reach 786 m by default",
+        "none",
         field="transmission_range_m",
     ),
     _communication_medium(

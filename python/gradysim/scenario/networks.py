@@ -188,7 +188,8 @@ def read_network(
             "medium": medium,
             "wind": {field: float(setting.value) for field, setting in wind.items()},
             "communication_medium": CommunicationMediumSpec(
-                **{field: float(setting.value) for field, setting in communication.items()}
+                **{field: float(setting.value) for field, setting in communication.items()},
+                range_source=given.source if (given := communication.get("transmission_range_m")) else None,
             ),
             "reference_coordinates": (latitude, longitude, altitude),
             "obstacles": (*obstacles, *chain.from_iterable(obstacle_files.values())),

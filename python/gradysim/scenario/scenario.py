@@ -5,8 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gradysim.protocol.checked_values import checked_number
-from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
-from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.lookup import Setting, is_ignored, options_in_force
 from gradysim.scenario.node_spec import NodeSpec
@@ -21,14 +20,16 @@ class CommunicationMediumSpec:
     """Prototype mode's medium.
 
     Attributes:
-        transmission_range_m: Distance up to which a message arrives, >= 0.
+        transmission_range_m: Distance up to which a message arrives, >= 0. None: that of each node's radio.
         delay_s: Time from sending to arrival, >= 0.
         failure_rate: Ratio of lost messages, 0 to 1.
+        range_source: The place of the range, if the file gives one.
     """
 
-    transmission_range_m: float = TRANSMISSION_RANGE_M
+    transmission_range_m: float | None = None
     delay_s: float = 0.0
     failure_rate: float = 0.0
+    range_source: Source | None = None
 
 
 @dataclass(frozen=True)

@@ -50,11 +50,16 @@ def test_numbers_for_other_programs(gradysim, studies):
     assert (said["config"], said["mode"]) == ("General", "prototype")
 
 
-def test_two_modes_of_one_directory(gradysim):
+RANGE = ("--set", "*.*.wlan[*].radio.transmitter.communicationRange=60m")
+
+
+@pytest.mark.parametrize(("settings", "warnings"), [(RANGE, 0), ((), 1)])
+def test_two_modes_of_one_directory(gradysim, settings, warnings):
     for mode in ("integrated", "prototype"):
-        gradysim("run", "test.ini", "--mode", mode, "--result-dir", "out", "--quiet")
+        gradysim("run", "test.ini", "--mode", mode, "--result-dir", "out", "--quiet", *settings)
     done = gradysim("compare", "out", "--by", "mode", "--baseline", "prototype")
-    assert (done.returncode, done.stderr) == (0, "")
+    assert done.returncode == 0
+    assert done.stderr.count("warning: in run 0 nodes reach 60 m in prototype") == warnings
     assert done.stdout.splitlines()[1].split()[:3] == ["quantity", "prototype", "integrated"]
 
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 import pytest
 
 from gradysim.prototype.run import run
-from gradysim.prototype.simulation import build_simulation, communication_medium, mobility_handler
+from gradysim.prototype.simulation import build_simulation, communication_handler, mobility_handler
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.keys import ARDUPILOT, MOBILITY_KEYS
 from gradysim.scenario.lookup import Setting
@@ -170,7 +170,22 @@ def test_of_speed_and_telemetry_interval_the_one_that_is_wrong_is_named(make_sce
 
 def test_the_medium(make_scenario):
     scenario = make_scenario("class Tested(Quiet): pass", "*.communicationMedium.transmissionRange = 30m")
-    assert communication_medium(scenario).transmission_range == 30
+    assert communication_handler(scenario).default_medium.transmission_range == 30
+
+
+def test_each_node_has_the_range_of_its_radio(make_scenario):
+    scenario = make_scenario(
+        "class Tested(Quiet):\n"
+        "    def initialize(self):\n"
+        "        self.provider.tracked_variables['heard'] = []\n"
+        "        greeting = BroadcastMessageCommand(str(self.provider.get_id()))\n"
+        "        self.provider.send_communication_command(greeting)\n"
+        "    def handle_packet(self, message):\n"
+        "        self.provider.tracked_variables['heard'].append(message)\n",
+        "*.uavs[0].wlan[*].radio.transmitter.communicationRange = 10m",
+        "*.uavs[1].wlan[*].radio.transmitter.communicationRange = 9.9m",
+    )
+    assert run_of(scenario) == [{"heard": []}, {"heard": ["0"]}]
 
 
 def test_a_medium_that_a_script_got_wrong_is_refused(make_scenario):

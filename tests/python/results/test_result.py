@@ -48,6 +48,7 @@ def test_keys_and_values_that_scripts_rely_on():
         ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
         ("settings_hash", "0123"),
         ("file_hashes", {}),
+        ("range_m", None),
         ("setup_s", 0.0),
     ]
 

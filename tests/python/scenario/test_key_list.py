@@ -30,7 +30,7 @@ def test_every_key_is_listed_with_a_meaning_and_a_unit() -> None:
         ("channelNumber", "0; 802.15.4: 20"),
         ("bandName", '"2.4 GHz"; 802.15.4: none'),
         ("snirThreshold", "4dB; 802.15.4: -8dB"),
-        ("transmissionRange", "60m"),
+        ("transmissionRange", "none"),
         ("beamWidth", HAS_TO_BE_GIVEN),
     ],
 )
@@ -54,7 +54,7 @@ def test_patterns(pattern: str) -> None:
     [
         ("stationarymobility", "*.nodes[*].mobility.typename"),  # one of its values
         ("2.4 ghz", "*.nodes[*].wlan[*].radio.bandName"),  # another one
-        ("60m", "*.communicationMedium.transmissionRange"),  # its default
+        ("10mps", "*.nodes[*].mobility.speed"),  # its default
         ("ArduPilot", "*.nodes[*].mobility.autopilotPath"),  # its meaning
     ],
 )

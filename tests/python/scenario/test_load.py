@@ -28,7 +28,7 @@ def test_a_run_holds_what_the_file_says(folder: Any) -> None:
 def test_defaults(folder: Any) -> None:
     scenario = folder.load()
     assert (scenario.seed, scenario.description, scenario.medium) == (0, "", {})
-    assert scenario.communication_medium == CommunicationMediumSpec(60.0, 0.0, 0.0)
+    assert scenario.communication_medium == CommunicationMediumSpec()
     assert scenario.reference_coordinates == (0.0, 0.0, 0.0)
 
 
@@ -183,7 +183,9 @@ def test_prototype_modes_medium(folder: Any) -> None:
         "*.communicationMedium.transmissionRange = 50m\n*.communicationMedium.delay = 5ms\n"
         "*.communicationMedium.failureRate = 0.25\n"
     )
-    assert scenario.communication_medium == CommunicationMediumSpec(50.0, 0.005, 0.25)
+    medium = scenario.communication_medium
+    assert (medium.transmission_range_m, medium.delay_s, medium.failure_rate) == (50, 0.005, 0.25)
+    assert medium.range_source.line == 6
 
 
 def test_the_place_on_earth(folder: Any) -> None:

@@ -12,7 +12,7 @@ from gradysim.simulator.handler.communication import CommunicationHandler
 class Radio:
     """Sends messages over a medium with its own settings; prototype mode only.
 
-    It starts with the settings of the communication handler. Messages to the node are not affected.
+    It starts with the settings of the node's own radio. Messages to the node are not affected.
     """
 
     def __init__(self, protocol: IProtocol) -> None:
@@ -32,7 +32,7 @@ class Radio:
             raise RuntimeError(f"Radio needs a CommunicationHandler in the simulation, found {handler!r}")
         self._node = provider.node
         self._handler = handler
-        self._medium = replace(handler.default_medium)
+        self._medium = replace(handler.medium_of.get(provider.node.id, handler.default_medium))
 
     def set_configuration(
         self,

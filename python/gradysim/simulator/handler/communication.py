@@ -187,6 +187,7 @@ class CommunicationHandler(INodeHandler):
 
     Attributes:
         default_medium: Medium of commands without a medium of their own.
+        medium_of: Media of nodes that have another one, by id.
         on_message: Called for each message, for a replay; None to disable it.
     """
 
@@ -200,6 +201,7 @@ class CommunicationHandler(INodeHandler):
         self._ledger = ledger
         self.on_message: MessageObserver | None = None
         self.default_medium = checked_configuration(communication_medium, CommunicationMedium)
+        self.medium_of: dict[int, CommunicationMedium] = {}
         self._event_loop: EventLoop | None = None
         self._sources: dict[int, CommunicationSource] = {}
         self._destinations: dict[int, CommunicationDestination] = {}
@@ -232,7 +234,7 @@ class CommunicationHandler(INodeHandler):
         sender: Node[Any],
         medium: CommunicationMedium | None = None,
     ) -> None:
-        """Send a message over `medium`, by default `default_medium`.
+        """Send a message over `medium`, by default the sender's.
 
         Raises:
             CommunicationException: The sender is not registered, the command is not valid, or the node has
@@ -256,7 +258,7 @@ class CommunicationHandler(INodeHandler):
         else:
             raise self._refusal(command, sender)
         _logger.debug("%s sends to %s: %s", sender.id, address, message)
-        medium = medium or self.default_medium
+        medium = medium or self.medium_of.get(sender.id, self.default_medium)
         source = self._sources[sender.id]
         if self._transmits_one_by_one:
             for destination in destinations:

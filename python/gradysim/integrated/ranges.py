@@ -1,0 +1,77 @@
+"""How far the radios of a scenario reach, and whether prototype mode has the same range."""
+
+import contextlib
+import math
+from collections.abc import Iterable, Iterator
+from itertools import chain
+
+from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
+from gradysim.integrated.network import medium_config, node_config
+from gradysim.integrated.power_for_range import MESSAGE_BYTES, PowersForRanges, range_of
+from gradysim.scenario.keys import has_radios
+from gradysim.scenario.lint import Finding, by_line
+from gradysim.scenario.ranges import are_alike, ranges_of_prototype_m
+from gradysim.scenario.scenario import Scenario
+
+
+def ranges_m(scenario: Scenario) -> list[float | None]:
+    """Return the distance (m) at which half of the messages of each node arrive, without other senders.
+
+    Between nodes like this one, over wlan[0]. None if the engine cannot compute it.
+    """
+    netsim = load_netsim()
+    medium = medium_config(scenario)
+    powers = PowersForRanges(medium)
+    known: dict[object, float | None] = {}
+    for spec in scenario.nodes:
+        key = (id(spec.wlan[0]), spec.initial_position[2])
+        if key in known:
+            continue
+        config = node_config(spec)
+        radio = config.wlan[0].radio
+        if not has_radios(medium.typename):
+            known[key] = radio.communication_range_m
+            continue
+        powers.set_powers(config, spec)
+        try:
+            budget = netsim.LinkBudget(medium, config, config, MESSAGE_BYTES, 0)
+        except netsim.ConfigError:  # the message does not fit into a frame
+            known[key] = None
+        else:
+            known[key] = range_of(budget, radio.tx_power_w)
+    return [known[id(spec.wlan[0]), spec.initial_position[2]] for spec in scenario.nodes]
+
+
+def lint_ranges(scenarios: Iterable[Scenario], mode: str) -> list[Finding]:
+    """Return a finding for each line that gives the two modes different ranges.
+
+    A power leaves prototype mode its default range, which is of interest in that mode only. Without the
+    engine there is one mode, and no finding.
+    """
+    different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}
+    with contextlib.suppress(CompiledPartMissingError):
+        return by_line(chain.from_iterable(_differing(scenario, mode) for scenario in different.values()))
+    return []
+
+
+def _differing(scenario: Scenario, mode: str) -> Iterator[Finding]:
+    given = scenario.communication_medium.range_source
+    powers = [spec.wlan[0].radio.get("tx_power_w") for spec in scenario.nodes]
+    if given is None and (mode == "integrated" or not any(powers)):
+        return
+    pairs = zip(scenario.nodes, powers, ranges_of_prototype_m(scenario), ranges_m(scenario), strict=True)
+    for spec, power, prototype_m, radio_m in pairs:
+        if radio_m is None or are_alike(prototype_m, radio_m):
+            continue
+        source = given or (power or next(filter(None, powers))).source
+        yield Finding(
+            source,
+            f"{spec.name} reaches {_shown(prototype_m)} in prototype mode, and {_shown(radio_m)} in"
+            " integrated mode; expected one range for both, `wlan[*].radio.transmitter.communicationRange`,"
+            f" without {'a transmissionRange' if given else 'a power'}",
+        )
+        return
+
+
+def _shown(range_m: float) -> str:
+    return f"{range_m:.4g} m" if math.isfinite(range_m) else "any distance"
