@@ -30,7 +30,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-slow test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-slow test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -64,8 +64,8 @@ test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
 fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engine, FUZZ_SECONDS=60 long.
 	cmake -S cpp --preset fuzz --log-level=WARNING
 	cmake --build build/fuzz
-	@mkdir -p build/fuzz/corpus
-	build/fuzz/netsim_fuzzer build/fuzz/corpus -artifact_prefix=build/fuzz/ -max_total_time=$(FUZZ_SECONDS) \
+	@mkdir -p build/fuzz/corpus build/fuzz/failures
+	build/fuzz/netsim_fuzzer build/fuzz/corpus -artifact_prefix=build/fuzz/failures/ -max_total_time=$(FUZZ_SECONDS) \
 	  -timeout=20 -max_len=2000 -len_control=0 -verbosity=0 -print_final_stats=1
 
 torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUTES=20 long; prints what was lost.
@@ -90,7 +90,8 @@ lint-files: $(STAMPS)/lint  ## Workflows, the forms of issues, the citation, the
 	check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
 	check-jsonschema --builtin-schema vendor.github-issue-forms .github/ISSUE_TEMPLATE/*.yml
 	check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
-	zizmor --offline --quiet --no-progress .github/workflows
+	check-jsonschema --builtin-schema vendor.dependabot .github/dependabot.yml
+	zizmor --offline --quiet --no-progress .github
 	pre-commit validate-config
 
 format: $(STAMPS)/lint  ## Lay out all sources; fixes what ruff can fix.
@@ -150,6 +151,10 @@ golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages
 wheels: $(STAMPS)/build $(STAMPS)/wheels $(STAMPS)/test system-qemu  ## Build wheels for x86-64 and aarch64 and the source distribution into dist, and test them.
 	$(BIN)/python packaging/build_wheels.py
 	$(BIN)/python -m pytest -o pythonpath='packaging tests/wheels' -vv -rs tests/wheels
+
+hashes: $(STAMPS)/hashes  ## Rewrite packaging/requirements.txt: what builds the published distributions, with hashes.
+	UV_CUSTOM_COMPILE_COMMAND='make hashes' uv pip compile --quiet --universal --python-version=3.11 --generate-hashes \
+	  --group=dist --output-file=packaging/requirements.txt
 
 release: | $(VENV)/bin/python  ## Run all checks and tests, build the wheels and tag a release: VERSION=1.0.0.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
@@ -217,7 +222,7 @@ $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)
 
 # Which packages, and which version of each: [dependency-groups] of pyproject.toml.
-$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/docs $(STAMPS)/wheels: pyproject.toml | $(VENV)/bin/python
+$(STAMPS)/build $(STAMPS)/test $(STAMPS)/lint $(STAMPS)/docs $(STAMPS)/wheels $(STAMPS)/hashes: pyproject.toml | $(VENV)/bin/python
 	@mkdir -p $(STAMPS)
 	@$(BIN)/pip --version | grep -q '^pip 26\.' || $(BIN)/pip install --quiet pip==26.3
 	$(BIN)/pip install --quiet --group $(@F)

@@ -115,3 +115,13 @@ def test_tools_have_one_version_each(project: dict[str, Any]) -> None:
                 name, version = tool.split("==")
                 versions.setdefault(name, set()).add(version)
     assert {name: found for name, found in versions.items() if len(found) > 1} == {}
+
+
+def test_what_builds_the_published_distributions_has_hashes(root: Path, project: dict[str, Any]) -> None:
+    """`make hashes` writes the file. `pip install --require-hashes` checks it when a release is built."""
+    lines = (root / "packaging/requirements.txt").read_text().replace("\\\n", " ").splitlines()
+    hashes = {line.split()[0]: line.count("--hash=sha256:") for line in lines if re.match(r"\w", line)}
+    groups = project["dependency-groups"]
+    tools = {*groups["build"], *(tool for tool in groups["dist"] if isinstance(tool, str))}
+    assert tools <= hashes.keys()
+    assert all(hashes.values())
