@@ -10,8 +10,11 @@ from typing import Any
 
 from gradysim.cli.options import RunOptions
 
-_ANSWERS_WITHIN_S = 30.0
+ANSWERS_WITHIN_S = 30.0
 """Wall time in seconds until a scheduler that does not answer is lost."""
+
+_CLOSES_WITHIN_S = 3.0
+"""Wall time in seconds until a connection that does not close is given up."""
 
 WITHOUT_WORKERS_S = 30.0
 """Wall time in seconds until a cluster without workers is lost."""
@@ -59,10 +62,11 @@ class _DaskWorkers(Workers):
         self._client = client
         self._name = name
         self._seen_s = time.monotonic()
+        self._is_lost = False
 
     def count(self) -> int:
         try:
-            threads = self._client.sync(self._client.scheduler.ncores, callback_timeout=_ANSWERS_WITHIN_S)
+            threads = self._client.sync(self._client.scheduler.ncores, callback_timeout=ANSWERS_WITHIN_S)
         except OSError as error:
             raise self.lost() from error
         now_s = time.monotonic()
@@ -75,15 +79,24 @@ class _DaskWorkers(Workers):
         return sum(threads.values())
 
     def lost(self) -> WorkersLostError:
+        self._is_lost = True
         return WorkersLostError(f"{self._name}: the scheduler does not answer any more")
 
     def cancel(self, group: "Future[Any]") -> bool:
         return False  # Dask cancels also what a worker goes on to compute
 
     def call_each(self, function: Callable[..., object], *arguments: object) -> None:
-        if self._client.status == "running":
+        async def call() -> None:  # `Client.run` outside the event loop has no time limit
+            await self._client.run(function, *arguments, on_error="ignore")
+
+        if not self._is_lost:
             with contextlib.suppress(OSError):  # `count` reports it
-                self._client.run(function, *arguments, on_error="ignore")
+                self._client.sync(call, callback_timeout=ANSWERS_WITHIN_S)
+
+    def close(self) -> None:
+        """Disconnect, also from a scheduler that does not answer."""
+        with contextlib.suppress(OSError):
+            self._client.close(timeout=_CLOSES_WITHIN_S)
 
 
 def check_executor(options: RunOptions) -> None:
@@ -131,13 +144,14 @@ def workers_of(options: RunOptions) -> Iterator[Workers | None]:
                     processes=False,
                     memory_limit=0,
                     dashboard_address=None,
+                    # By default, it listens on port 8787 of all addresses, and warns if that port is taken.
+                    scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
                 )
             )
             workers = f"{options.jobs} worker{'s' * (options.jobs > 1)}"
             print(f"{name}: {workers} on this machine, as no --scheduler is given", file=sys.stderr)
         try:
-            client = dask.Client(where, timeout=_ANSWERS_WITHIN_S, set_as_default=False)
+            client = dask.Client(where, timeout=ANSWERS_WITHIN_S, set_as_default=False)
         except (OSError, ValueError) as error:
             raise ConfigError(f"{name}: {error}; expected the address of a Dask scheduler") from error
-        connection.enter_context(client)
-        yield _DaskWorkers(client, name)
+        yield connection.enter_context(contextlib.closing(_DaskWorkers(client, name)))

@@ -4,6 +4,7 @@ import contextlib
 import json
 import re
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -54,6 +55,12 @@ WITHOUT_PATIENCE = (
     " sys.exit(app.main())"
 )
 """The command that does not wait for workers for 30 s."""
+
+IMPATIENT = (
+    "import sys; from gradysim.cli import app, executors; executors.ANSWERS_WITHIN_S = 3.0;"
+    " sys.exit(app.main())"
+)
+"""The command that does not wait for the answer of a scheduler for 30 s."""
 
 
 @pytest.mark.parametrize(
@@ -227,6 +234,23 @@ def test_a_worker_that_is_killed_loses_nothing(
     assert results(folder / "out") == results(folder / "local")
 
 
+@pytest.mark.verify
+def test_a_scheduler_that_is_frozen_ends_the_command(folder: Path, scheduler: Scheduler) -> None:
+    (worker,) = scheduler.start_workers(1)
+    with command(folder, *ONE_ENDS, "--scheduler", scheduler.address, code=IMPATIENT) as process:
+        wait_for_the_second_run(folder)
+        scheduler.process.send_signal(signal.SIGSTOP)
+        try:
+            _, errors = process.communicate(timeout=30)
+        finally:
+            worker.kill()
+            worker.wait()
+            scheduler.process.send_signal(signal.SIGCONT)
+    lost = f"--scheduler {scheduler.address}: the scheduler does not answer any more"
+    assert errors == f"{lost}; General: 1 of 4 runs is done (0), 3 were under way (1..3)\n"
+    assert process.returncode == INCOMPLETE
+
+
 def test_a_scheduler_that_is_killed_ends_the_command(folder: Path, scheduler: Scheduler) -> None:
     scheduler.start_workers(1)
     with command(folder, *ONE_ENDS, "--scheduler", scheduler.address) as process:
@@ -246,8 +270,12 @@ def test_without_a_scheduler_workers_start_here(folder: Path, gradysim: Gradysim
     (folder / "protocol.py").write_text(PROTOCOL.replace('print("printed by a protocol")', ""))
     options = ("--mode", "prototype", "--json", "--jobs", "2")
     expected = gradysim("run", "test.ini", *options)
-    with command(folder, *options) as process:
-        printed, errors = process.communicate(timeout=60)
+    with socket.socket() as other_cluster:
+        with contextlib.suppress(OSError):  # there is one
+            other_cluster.bind(("", 8787))
+            other_cluster.listen()
+        with command(folder, *options) as process:
+            printed, errors = process.communicate(timeout=60)
     assert (process.returncode, errors) == (0, f"{LOCAL}\n")
     rows = [without_costs(row) for row in objects(printed)]
     assert rows == [without_costs(row) for row in objects(expected.stdout)]
