@@ -28,6 +28,7 @@ STEP, HEIGHT, WIDTH = 0.72, 0.58, 5.4
 
 CONTENTS = {
     "__main__": "python -m gradysim",
+    "scripting": "gradysim.run",
     "cli": "commands, options, processes of runs",
     "ladder": "effects of real radios, level by level",
     "stepping": "runs in steps",
@@ -45,6 +46,7 @@ CONTENTS = {
     "showcases": "GrADyS' protocols",
     "viewer": "page in a browser",
     "protocol": "interface, messages, plugins",
+    "html_table": "tables for notebooks",
     "installation": "check of installed files",
     "proxy_protocol": "bindings; Python protocols",
     "node": "interfaces, native protocols",

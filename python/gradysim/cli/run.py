@@ -1,6 +1,7 @@
 """`gradysim run`: checks the runs of a configuration, executes them, and reports their results."""
 
 import gc
+import itertools
 import os
 import signal
 import sys
@@ -31,7 +32,8 @@ if TYPE_CHECKING:
 
     from gradysim.cli.execution import Run
     from gradysim.cli.executors import Workers
-    from gradysim.cli.run_task import Reported
+    from gradysim.cli.run_task import Reported, RunTask
+    from gradysim.cli.runner import ForkExecutor
     from gradysim.scenario.load import Study
     from gradysim.scenario.scenario import Scenario
 
@@ -101,7 +103,29 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         return _execute(file, options, prepared, workers, left_s)
 
 
-def _prepare(file: Path, options: RunOptions) -> _Prepared | None:
+def run_study(
+    study: "Study", file: Path, options: RunOptions, on_progress: Callable[[int, int], None]
+) -> int:
+    """Run the runs of a study that was read in this process, for a script, and return the exit code.
+
+    Args:
+        study: The runs.
+        file: Its .ini file.
+        options: Options of the command, without `executor`, `until` and `stop_after`.
+        on_progress: Called with the number of runs that have ended, and that of all to do.
+
+    Raises:
+        ConfigError, CompiledPartMissingError, OSError: The study or an option is not valid.
+    """
+    gc.freeze()  # as `run_file`
+    try:
+        prepared = _prepare(file, options, study)
+        return OK if prepared is None else _execute(file, options, prepared, on_progress=on_progress)
+    finally:
+        gc.unfreeze()
+
+
+def _prepare(file: Path, options: RunOptions, study: "Study | None" = None) -> _Prepared | None:
     """Read and check the study; None if no run is left. Raises ConfigError and OSError."""
     from gradysim.cli.execution import check_names, simulator
     from gradysim.cli.progress import waiting
@@ -118,7 +142,8 @@ def _prepare(file: Path, options: RunOptions) -> _Prepared | None:
     with redirect_stdout(sys.stderr) if options.as_json else nullcontext():
         part = part_of_share(options.share)
         with waiting(f"reading {file}", shown=bar):
-            study = check(file, options.config, options.runs, options.settings, options.seed, part)
+            if study is None:
+                study = check(file, options.config, options.runs, options.settings, options.seed, part)
             if not len(study):
                 print(f"{study.config}: --share {options.share} has no run", file=sys.stderr)
                 return None
@@ -143,11 +168,17 @@ def _prepare(file: Path, options: RunOptions) -> _Prepared | None:
 
 
 def _execute(
-    file: Path, options: RunOptions, prepared: _Prepared, workers: "Workers | None", left_s: float | None
+    file: Path,
+    options: RunOptions,
+    prepared: _Prepared,
+    workers: "Workers | None" = None,
+    left_s: float | None = None,
+    on_progress: Callable[[int, int], None] | None = None,
 ) -> int:
     """Execute the runs by workers or by processes of this machine, and return the exit code.
 
-    `left_s` is the wall time in seconds until the command stops; None for no end.
+    `left_s` is the wall time in seconds until the command stops; None for no end. Scripts get `on_progress`,
+    which is that of `run_study`.
     """
     from gradysim.cli.group import Group
     from gradysim.cli.group_executor import GroupExecutor
@@ -176,8 +207,9 @@ def _execute(
             terminal = error_terminal() if is_alone else None
             import_what_runs_use(options)
             task = RunTask(study, options, build, interrupt, first, line, terminal)
-            with ForkExecutor(options.jobs, interrupt) as forks:
-                code = _run_rounds(prepared, options, lambda place: forks.submit(task, place))
+            with ForkExecutor(options.jobs, interrupt, captures=on_progress is not None) as forks:
+                submit = _submitter(forks, task, len(left), on_progress)
+                code = _run_rounds(prepared, options, submit)
         else:
             group = Group.of(file, options, first, line)
             with closing(GroupExecutor(workers, group, interrupt)) as groups:
@@ -189,6 +221,23 @@ def _execute(
     if code == OK and has_lines and options.is_writer and not (options.as_json or options.quiet):
         print(f"files in {options.directory}")
     return code
+
+
+def _submitter(
+    forks: "ForkExecutor", task: "RunTask", count: int, on_progress: Callable[[int, int], None] | None
+) -> "Callable[[int], Future[Reported]]":
+    """Return a function that submits the run at a position; at its end, `on_progress` is called."""
+    ended = itertools.count(1)
+
+    def submit(place: int) -> "Future[Reported]":
+        future = forks.submit(task, place)
+        if on_progress is not None:
+            future.add_done_callback(lambda _: on_progress(next(ended), count))
+        return future
+
+    if on_progress is not None:
+        on_progress(0, count)
+    return submit
 
 
 def _run_rounds(prepared: _Prepared, options: RunOptions, submit: "Callable[[int], Future[Reported]]") -> int:

@@ -27,7 +27,7 @@ from gradysim.plots.time import draw_time, time_numbers, vector_names
 from gradysim.results.compare import Change, Pairs
 from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs
-from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.errors import ConfigError, nearest
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,6 +37,7 @@ __all__ = [
     "STYLE",
     "cdf",
     "diff",
+    "draw",
     "line",
     "map",
     "new_figure",
@@ -130,6 +131,14 @@ KINDS: Mapping[str, Kind] = {
 }
 
 
+def draw(
+    runs: Runs, *, kind: str = "line", columns: int = 1, log: Iterable[str] = (), **arguments: Any
+) -> "Figure":
+    """Draw a figure, which a notebook shows. Arguments and exceptions are those of `save_figure`."""
+    chosen, given = _chosen(runs, kind, arguments)
+    return _drawn(chosen.numbers(runs, **given), chosen.draw, new_figure(columns), log)
+
+
 def save_figure(
     path: str | Path,
     runs: Runs,
@@ -155,6 +164,20 @@ def save_figure(
         OSError: A file cannot be read or written.
     """
     path = Path(path)
+    chosen, given = _chosen(runs, kind, arguments)
+    check_file(path, list(runs))
+    empty = new_figure(columns)
+    numbers = chosen.numbers(runs, **given)
+    origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
+    return _save(path, numbers, chosen.draw, list(runs), origin, empty, log)
+
+
+def _chosen(runs: Runs, kind: str, arguments: Mapping[str, Any]) -> tuple[Kind, dict[str, Any]]:
+    """Return a kind of figure, and the arguments for it that are given. Raises ConfigError."""
+    if kind not in KINDS:
+        raise ConfigError(
+            f"there is no figure of kind {kind}", expected=", ".join(KINDS), suggestion=nearest(kind, KINDS)
+        )
     chosen = KINDS[kind]
     given = {name: value for name, value in arguments.items() if value is not None and value != ()}
     for name in chosen.needs:
@@ -165,11 +188,7 @@ def save_figure(
         if name not in (*chosen.needs, *chosen.takes):
             takes = " and ".join(f"--{each}" for each in (*chosen.needs, *chosen.takes)) or "none of these"
             raise ConfigError(f"--kind {kind} does not take --{name}", expected=takes)
-    check_file(path, list(runs))
-    figure = new_figure(columns)
-    numbers = chosen.numbers(runs, **given)
-    origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
-    return _save(path, numbers, chosen.draw, list(runs), origin, figure, log)
+    return chosen, given
 
 
 def save_numbers(
@@ -220,9 +239,9 @@ def save_changes(
     path = Path(path)
     check_file(path, pairs.all_runs)
     numbers = changes_numbers(changes, first, second)
-    figure = new_figure()
-    figure.set_figheight(changes_height_in(numbers))
-    return _save(path, numbers, draw_changes, pairs.all_runs, {"compared": [first, second]}, figure)
+    empty = new_figure()
+    empty.set_figheight(changes_height_in(numbers))
+    return _save(path, numbers, draw_changes, pairs.all_runs, {"compared": [first, second]}, empty)
 
 
 def _save(
@@ -231,16 +250,26 @@ def _save(
     draw: Callable[["Axes", Numbers], "Axes"],
     runs: Sequence[RunSummary],
     origin: Mapping[str, object],
-    figure: "Figure",
+    empty: "Figure",
     log: Iterable[str] = (),
 ) -> tuple[Path, Path, Path]:
-    """Draw numbers into a figure, and write the three files."""
+    """Draw numbers into an empty figure, and write the three files."""
     from matplotlib import rc_context
 
     with rc_context(STYLE):
-        axes = draw(figure.subplots(), numbers)
+        return write_files(_drawn(numbers, draw, empty, log), path, numbers, runs, origin)
+
+
+def _drawn(
+    numbers: Numbers, draw: Callable[["Axes", Numbers], "Axes"], empty: "Figure", log: Iterable[str]
+) -> "Figure":
+    """Return the figure with these numbers, on logarithmic axes for `log`."""
+    from matplotlib import rc_context
+
+    with rc_context(STYLE):
+        axes = draw(empty.subplots(), numbers)
         for axis in log:
             if getattr(axes.dataLim, f"minpos{axis}") == inf:
                 raise ConfigError(f"--log {axis}: no value on this axis is positive")
             getattr(axes, f"set_{axis}scale")("log")
-        return write_files(figure, path, numbers, runs, origin)
+    return empty

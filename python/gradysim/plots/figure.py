@@ -79,14 +79,16 @@ def styles_of(curves: Sequence[Curve]) -> list[dict[str, Any]]:
 
 
 def new_figure(columns: int = 1) -> "Figure":
-    """Return an empty figure of this style. Raises ImportError if matplotlib is missing."""
+    """Return an empty figure of this style, which notebooks show. Raises ImportError without matplotlib."""
     try:
-        from matplotlib.figure import Figure
+        import matplotlib.figure  # noqa: F401
     except ImportError as error:
         raise ImportError(
             "a figure needs matplotlib: pip install matplotlib (the extra `plot` of gradysim)"
         ) from error
-    return Figure(figsize=(WIDTHS_IN[columns], HEIGHT_IN), layout="constrained")
+    from gradysim.plots.shown_figure import ShownFigure
+
+    return ShownFigure(figsize=(WIDTHS_IN[columns], HEIGHT_IN), layout="constrained")
 
 
 def set_texts(axes: "Axes", numbers: Numbers) -> None:

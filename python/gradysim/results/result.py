@@ -11,6 +11,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
+from gradysim.html_table import html_table
+from gradysim.replay.view import HEIGHT_PX, ReplayView
 from gradysim.results.delays import Delays, delay_averages, delay_histograms, delay_scalars
 from gradysim.results.outcomes import (
     Counts,
@@ -275,6 +277,43 @@ class RunResult:
             digits=".3f",
         ),
     ] = 0.0
+    replay_page: Annotated[
+        str | None,
+        Quantity(
+            "With `replay` in `gradysim.run`: the page of the replay, HTML. In scripts only.", in_json=False
+        ),
+    ] = field(default=None, repr=False, compare=False)
+
+    def view(self, height_px: int = HEIGHT_PX) -> ReplayView:
+        """Return the replay of a run of `gradysim.run(..., replay="all")`, which a notebook shows.
+
+        Raises ValueError if the run was not recorded.
+        """
+        if self.replay_page is None:
+            raise ValueError(f'{self.config} run {self.run} has no replay; expected run(…, replay="all")')
+        return ReplayView(self.replay_page, height_px)
+
+    def _repr_html_(self) -> str:
+        """Return the last values of tracked variables and the outcomes as tables, for notebooks."""
+        names = list(dict.fromkeys(name for node in self.nodes for name in node.tracked_variables))
+        about = f"{self.config} run {self.run}, {self.mode} mode, seed {self.seed}, {self.sim_time_s:g} s"
+        tracked = html_table(
+            about + (", interrupted" if self.interrupted else ""),
+            ("node", *names),
+            [(node.name, *(node.tracked_variables.get(name, "") for name in names)) for node in self.nodes],
+        )
+        outcomes = html_table(
+            "outcomes",
+            ("of", "kind", "outcome", "count"),
+            [
+                (of, kind, outcome.replace("_", " "), f"{count:,}")
+                for of, kinds in self.fates.items()
+                for kind, counts in kinds.items()
+                for outcome, count in counts.items()
+                if count
+            ],
+        )
+        return tracked + outcomes
 
     def to_json_object(self) -> dict[str, object]:
         """Return the result as plain dicts, lists, strings and numbers."""

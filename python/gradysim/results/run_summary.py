@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from gradysim.replay.view import HEIGHT_PX, ReplayView
 from gradysim.results.quantity import averages_of
 from gradysim.results.result import RunResult
 from gradysim.results.tracked_variables import tracked_by_group, variables_of_group
@@ -152,6 +153,13 @@ class RunSummary:
     def file(self) -> Path:
         """The result file. `read_run_file` also finds it in a pack."""
         return self.directory / self.file_name
+
+    def view(self, height_px: int = HEIGHT_PX) -> ReplayView:
+        """Return the replay next to the result file, which a notebook shows.
+
+        Raises OSError if the run was not recorded.
+        """
+        return ReplayView.of_file(self.file.with_suffix(".html"), height_px)
 
     @property
     def name(self) -> str:

@@ -6,10 +6,12 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
+from gradysim.html_table import html_table
 from gradysim.protocol.plain_value import as_float
 from gradysim.results.files import read_run_file
+from gradysim.results.means import Mean, means
 from gradysim.results.omnetpp_reader import read_vectors
 from gradysim.results.outcomes import Outcomes
 from gradysim.results.quantity import Names, name_filter, quantities
@@ -17,6 +19,9 @@ from gradysim.results.result import RunResult
 from gradysim.results.result_dir import read_results
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import ConfigError, nearest
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Per = Literal["run", "node", "time"]
 
@@ -47,17 +52,48 @@ def column_of(variable: str) -> str:
 
 
 class Runs:
-    """Runs of a study: a sequence of `RunSummary`, with selection by `where` and tables by `columns`."""
+    """Runs of a study: a sequence of `RunSummary`, with selection by `where` and tables by `columns`.
 
-    def __init__(self, summaries: Iterable[RunSummary]) -> None:
-        """Store runs in their order."""
+    A notebook shows the table of their means.
+    """
+
+    def __init__(self, summaries: Iterable[RunSummary], source: "Runs | None" = None) -> None:
+        """Store runs in their order. Files of `source`, of which they are a part, may be temporary."""
         self._runs = tuple(summaries)
+        self._source = source
 
     def __len__(self) -> int:
         return len(self._runs)
 
     def __iter__(self) -> Iterator[RunSummary]:
         return iter(self._runs)
+
+    def __getitem__(self, index: int) -> RunSummary:
+        return self._runs[index]
+
+    def __repr__(self) -> str:
+        configs = list(dict.fromkeys(run.config for run in self))
+        return f"<{len(self)} runs of {', '.join(configs) or 'no configuration'}>"
+
+    def _repr_html_(self) -> str:
+        """Return the means of `means()` as a table, for notebooks."""
+        found = self.means()
+        variables = list(dict.fromkeys(name for mean in found for name in mean.iterations))
+        rows = [
+            (
+                mean.config,
+                mean.mode,
+                *(mean.iterations.get(name, "") for name in variables),
+                mean.quantity,
+                mean.runs,
+                "" if mean.mean is None else f"{mean.mean:.6g}",
+                "" if mean.low is None or mean.high is None else f"{mean.low:.4g} to {mean.high:.4g}",
+            )
+            for mean in found
+        ]
+        headings = ("config", "mode", *map(column_of, variables), "quantity", "runs", "mean", "95 % interval")
+        about = f"{len(self)} runs: means with confidence intervals"
+        return html_table(about, headings, rows, in_caption=("config", "mode", "runs"))
 
     @property
     def variables(self) -> list[str]:
@@ -105,7 +141,14 @@ class Runs:
                 for run in kept
                 if any(_is_same(each, variables_of(run).get(variable)) for each in several)
             ]
-        return Runs(kept)
+        return Runs(kept, self)
+
+    def means(self, quantities: Names | None = None) -> list[Mean]:
+        """Return means with 95 % confidence intervals, as `gradysim means` prints them.
+
+        `quantities` selects by name, with `*` and `?`, as in `read_means`.
+        """
+        return means(self, quantities)
 
     def columns(self, *names: str, per: Per = "run") -> dict[str, list[Any]]:
         """Return a table as {name of the column: its values}, for `polars.DataFrame` and `pandas.DataFrame`.
@@ -141,6 +184,17 @@ class Runs:
                 "a frame needs pandas: pip install pandas (the extra `pandas` of gradysim)"
             ) from error
         return pandas.DataFrame(self.columns(*names, per=per))
+
+    def plot(
+        self, *, kind: str = "line", columns: int = 1, log: Iterable[str] = (), **arguments: Any
+    ) -> "Figure":
+        """Return a figure of the runs, which a notebook shows: `plot(x="jitter", y="station heard")`.
+
+        Arguments and exceptions are those of `gradysim.plots.draw`.
+        """
+        from gradysim.plots import draw
+
+        return draw(self, kind=kind, columns=columns, log=log, **arguments)
 
     def vectors(
         self, names: Names | None = None

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence, Set
 from pathlib import Path
 from typing import Any, overload
 
+from gradysim.html_table import html_table
 from gradysim.scenario.coverage import Coverage
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector
 from gradysim.scenario.ini import Entry, read_ini, read_overrides
@@ -254,6 +255,21 @@ class Study(Sequence[Scenario]):
             network=self._network,
             lines=self._lines,
             unread_variables=self._unread,
+        )
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} runs of {self.config} in {self._file}>"
+
+    def _repr_html_(self) -> str:
+        """Return the runs as a table, for notebooks."""
+        names = list(dict.fromkeys(name for run in self._runs for name in run.iterations))
+        return html_table(
+            f"{self._file.name}, {self.config}: {len(self)} runs",
+            ("run", *names, "repetition", "seed"),
+            [
+                (run.number, *(run.iterations.get(name, "") for name in names), run.repetition, seed)
+                for run, seed in zip(self._runs, self.seeds, strict=True)
+            ],
         )
 
     def checked_in_full(self) -> list[Scenario]:

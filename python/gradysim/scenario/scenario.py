@@ -1,9 +1,11 @@
 """Scenarios as plain data, one for each run. Both modes are built from them."""
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gradysim.html_table import html_table
 from gradysim.protocol.checked_values import checked_number
 from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.ini import Entry, Section
@@ -98,6 +100,18 @@ class Scenario:
                 raise ValueError(
                     f"nodes: {node.name}, at place {place}, has the id {node.id}; expected 0, 1, ... in order"
                 )
+
+    def _repr_html_(self) -> str:
+        """Return the groups of nodes as a table, for notebooks."""
+        groups = dict.fromkeys((node.group, node.protocol.__name__) for node in self.nodes)
+        counts = Counter((node.group, node.protocol.__name__) for node in self.nodes)
+        values = "".join(f", {name} = {value}" for name, value in self.iterations.items())
+        about = f"{self.file.name}, {self.config} run {self.run_number}{values}, seed {self.seed}"
+        return html_table(
+            f"{about}, {self.sim_time_limit_s:g} s",
+            ("nodes", "protocol", "count"),
+            [(group, protocol, counts[group, protocol]) for group, protocol in groups],
+        )
 
     @property
     def variables(self) -> dict[str, str]:

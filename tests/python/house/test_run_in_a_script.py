@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-import gradysim.integrated.run
+import gradysim
 
 GUIDE = "docs/how-to/run-in-a-script.md"
 
@@ -35,10 +35,17 @@ def test_its_commands_print_the_rows_that_are_shown(
     assert shell(commands, saved(GUIDE, python="compare.py")).endswith(rows)
 
 
-def test_runs_in_parallel_are_those_of_this_process(shown: dict[str, Any], file: str) -> None:
-    scenarios = shown["load_scenarios"](file, overrides=["repeat = 4"])
-    events = [gradysim.integrated.run.run(scenario).events for scenario in scenarios]
-    assert shown["in_parallel"](file) == events
+def test_a_study_gives_the_means_of_its_runs(
+    shown: dict[str, Any], file: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(Path(file).parent)
+    found = shown["means_of_study"](file)
+    study = gradysim.load(file, "Study")
+    assert found.keys() == {2, 5, 10, 20}
+    first = [gradysim.run(scenario) for scenario in study if scenario.iterations["vehicles"] == "5"]
+    heard = [node.tracked_variables["heard"] for run in first for node in run.nodes if node.name == "station"]
+    assert found[5] == pytest.approx(sum(heard) / len(heard))
+    assert shown["means_of_study"](file) == found, "the second call resumes"
 
 
 def test_an_interrupt_leaves_the_results_so_far(shown: dict[str, Any], file: str) -> None:

@@ -1,0 +1,1 @@
+"""Runs for scripts and notebooks: `gradysim.run`, with progress bars."""
