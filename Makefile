@@ -50,8 +50,8 @@ test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel, w
 	  $(if $(ONLY),$(ONLY),--numprocesses=$(WORKERS) --dist=loadfile $(if $(MEASURES),--cov --cov-report=))
 	$(if $(MEASURES),@echo "Lines that the tests reach: $$($(BIN)/coverage report --format=total) %")
 
-coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and for each file the lines that they do not reach.
-	$(BIN)/python -m pytest --numprocesses=$(WORKERS) --dist=loadfile --cov --cov-report=term-missing:skip-covered
+coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and for each file the lines and branches that they do not reach.
+	$(BIN)/python -m pytest --numprocesses=$(WORKERS) --dist=loadfile --cov --cov-branch --cov-report=term-missing:skip-covered
 
 test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays, in Chromium.
 	$(BIN)/python -m pytest tests/viewer --numprocesses=auto --dist=worksteal
@@ -156,7 +156,7 @@ hashes: $(STAMPS)/hashes  ## Rewrite packaging/requirements.txt: what builds the
 	UV_CUSTOM_COMPILE_COMMAND='make hashes' uv pip compile --quiet --universal --python-version=3.11 --generate-hashes \
 	  --group=dist --output-file=packaging/requirements.txt
 
-release: | $(VENV)/bin/python  ## Run all checks and tests, build the wheels and tag a release: VERSION=1.0.0.
+release: | $(VENV)/bin/python  ## Run all checks and tests, build the wheels and tag a release: VERSION=1.0.0, or 1.0.0rc1.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
 	$(MAKE) --no-print-directory lint test test-slow
 	$(BIN)/python -m pytest tests/verification --numprocesses=$(WORKERS) --dist=loadfile

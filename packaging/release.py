@@ -1,7 +1,7 @@
 """Check that the main branch can be released, and tag it: `make release VERSION=1.0.0`.
 
 Two commands, since make runs the tests and builds the wheels between them: `release.py check 1.0.0` and
-`release.py tag 1.0.0`.
+`release.py tag 1.0.0`. A pre-release, such as 1.0.0rc1, has the notes that the release has so far.
 """
 
 import datetime
@@ -12,13 +12,20 @@ import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
-NEXT = """\
+VERSION = re.compile(r"(\d+\.\d+\.\d+)((?:a|b|rc)\d+)?")
+"""A release and the suffix of a pre-release, in the normal form of PEP 440."""
+
+PUBLISH = """\
 The tag v{version} is in this clone only. Publish it:
 
   git push origin main v{version}
 
-The workflow `wheels` then publishes the wheels. To begin the next version, raise `fallback_version` in
-pyproject.toml and open CHANGELOG.md with "## Unreleased (VERSION)".
+The workflow `wheels` then publishes the wheels, once the tests of the tagged commit have passed.
+"""
+
+NEXT = """
+To begin the next version, raise `fallback_version` in pyproject.toml and open CHANGELOG.md with
+"## Unreleased (VERSION)".
 """
 
 
@@ -28,28 +35,28 @@ def git(*arguments: str, given: str | None = None) -> str:
     return done.stdout.strip()
 
 
-def section(version: str) -> tuple[str, str] | None:
-    """Return what follows the version in its heading of the changelog, and the notes under it."""
-    changelog = Path("CHANGELOG.md").read_text()
-    found = re.search(
-        rf"^## {re.escape(version)}\b([^\n]*)\n(.*?)(?=^## |\Z)", changelog, re.MULTILINE | re.DOTALL
-    )
-    return (found[1].strip(), found[2].strip()) if found else None
+def first_section() -> tuple[str, str]:
+    """Return the heading of the first section of the changelog, and the notes under it."""
+    _, section = Path("CHANGELOG.md").read_text().split("\n## ", 2)[:2]
+    heading, _, notes = section.partition("\n")
+    return heading.strip(), notes.strip()
 
 
-def is_date(text: str) -> bool:
-    """Return whether the end of a heading is a date, as `(2026-11-30)`."""
+def is_dated(heading: str, version: str) -> bool:
+    """Return whether a heading is that of a release, as `1.0.0 (2026-11-30)`."""
     try:
-        return text == f"({datetime.date.fromisoformat(text[1:-1])})"
+        date = datetime.date.fromisoformat(heading[-11:-1])
     except ValueError:
         return False
+    return heading == f"{version} ({date})"
 
 
 def obstacles(version: str) -> Iterator[str]:
     """Yield what keeps the release back."""
-    if not re.fullmatch(r"\d+\.\d+\.\d+", version):
-        yield f"expected a version such as 1.0.0, got `{version}`"
+    if (parts := VERSION.fullmatch(version)) is None:
+        yield f"expected a version such as 1.0.0 or 1.0.0rc1, got `{version}`"
         return
+    release, is_early = parts[1], parts[2] is not None
     if (branch := git("branch", "--show-current")) != "main":
         yield f"expected the branch `main`, got `{branch}`"
     if git("status", "--porcelain"):
@@ -57,32 +64,30 @@ def obstacles(version: str) -> Iterator[str]:
     if git("tag", "--list", f"v{version}"):
         yield f"the tag v{version} exists"
     fallback = tomllib.loads(Path("pyproject.toml").read_text())["tool"]["vcs-versioning"]["fallback_version"]
-    if fallback != f"{version}.dev0":
-        yield f"pyproject.toml: expected fallback_version `{version}.dev0`, got `{fallback}`"
-    heading = f"## {version} ({datetime.date.today()})"
-    if (found := section(version)) is None:
-        yield f"CHANGELOG.md: expected the heading `{heading}`"
-    elif not is_date(found[0]):
-        yield f"CHANGELOG.md: expected the heading `{heading}`, got `## {version} {found[0]}`"
-    elif not found[1]:
-        yield f"CHANGELOG.md: nothing under `## {version} {found[0]}`"
+    if fallback != f"{release}.dev0":
+        yield f"pyproject.toml: expected fallback_version `{release}.dev0`, got `{fallback}`"
+    heading, notes = first_section()
+    expected = f"Unreleased ({release})" if is_early else f"{version} ({datetime.date.today()})"
+    if heading != expected and (is_early or not is_dated(heading, version)):
+        yield f"CHANGELOG.md: expected the heading `## {expected}`, got `## {heading}`"
+    elif not notes:
+        yield f"CHANGELOG.md: nothing under `## {heading}`"
 
 
-def check(version: str) -> str:
-    """Return the notes of a release, or exit with all that keeps it back."""
+def check(version: str) -> None:
+    """Exit with all that keeps a release back."""
     if found := list(obstacles(version)):
         sys.exit("\n".join(found))
-    dated = section(version)
-    assert dated is not None
-    return dated[1]
 
 
 def tag(version: str) -> None:
     """Write the tag, with the notes of the release as its message."""
-    message = f"gradysim {version}\n\n{check(version)}\n"
+    check(version)
+    heading, notes = first_section()
     # Verbatim: git takes headings for comments.
+    message = f"gradysim {version}\n\n{notes}\n"
     git("tag", "--annotate", "--cleanup=verbatim", "--file=-", f"v{version}", given=message)
-    print(NEXT.format(version=version), end="")
+    print(PUBLISH.format(version=version), NEXT if is_dated(heading, version) else "", sep="", end="")
 
 
 if __name__ == "__main__":

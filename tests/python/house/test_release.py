@@ -71,7 +71,9 @@ def test_the_tag_is_at_the_last_commit(clone: Path, root: Path) -> None:
 
 
 def test_the_next_step_is_printed(clone: Path, root: Path) -> None:
-    assert "git push origin main v1.2.3\n" in release(clone, root, "tag").stdout
+    printed = release(clone, root, "tag").stdout
+    assert "git push origin main v1.2.3\n" in printed
+    assert "fallback_version" in printed
 
 
 def test_a_check_writes_no_tag(clone: Path, root: Path) -> None:
@@ -113,7 +115,10 @@ def test_a_section_without_a_date_is_refused(clone: Path, root: Path) -> None:
 def test_an_unreleased_section_is_refused(clone: Path, root: Path) -> None:
     open_changelog(clone, "Unreleased (1.2.3)")
     done = release(clone, root, "check")
-    assert re.fullmatch(r"CHANGELOG.md: expected the heading `## 1.2.3 \(20..-..-..\)`\n", done.stderr)
+    assert re.fullmatch(
+        r"CHANGELOG.md: expected the heading `## 1.2.3 \(20..-..-..\)`, got `## Unreleased \(1.2.3\)`\n",
+        done.stderr,
+    )
 
 
 def test_a_section_without_notes_is_refused(clone: Path, root: Path) -> None:
@@ -127,5 +132,23 @@ def test_another_version_than_the_next_one_is_refused(clone: Path, root: Path) -
     expect(clone, root, message, version="2.0.0")
 
 
-def test_a_version_has_three_numbers(clone: Path, root: Path) -> None:
-    expect(clone, root, "expected a version such as 1.0.0, got `v1.2`", version="v1.2")
+@pytest.mark.parametrize("version", ["v1.2", "1.2.3-rc1", "1.2.3rc", "1.2.3.dev0"])
+def test_other_versions_are_refused(clone: Path, root: Path, version: str) -> None:
+    message = f"expected a version such as 1.0.0 or 1.0.0rc1, got `{version}`"
+    expect(clone, root, message, version=version)
+
+
+@pytest.mark.parametrize("version", ["1.2.3a1", "1.2.3b2", "1.2.3rc1"])
+def test_a_pre_release_has_the_notes_so_far(clone: Path, root: Path, version: str) -> None:
+    open_changelog(clone, "Unreleased (1.2.3)")
+    done = release(clone, root, "tag", version)
+    assert done.returncode == 0, done.stderr
+    message = git(clone, "tag", "--list", "--format=%(contents)", f"v{version}")
+    assert message == f"gradysim {version}\n\n{NOTES}".strip()
+    assert f"git push origin main v{version}\n" in done.stdout
+    assert "fallback_version" not in done.stdout
+
+
+def test_a_pre_release_comes_before_its_release(clone: Path, root: Path) -> None:
+    message = "CHANGELOG.md: expected the heading `## Unreleased (1.2.3)`, got `## 1.2.3 (2026-11-30)`"
+    expect(clone, root, message, version="1.2.3rc1")
