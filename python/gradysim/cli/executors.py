@@ -144,8 +144,9 @@ def workers_of(options: RunOptions) -> Iterator[Workers | None]:
                     processes=False,
                     memory_limit=0,
                     dashboard_address=None,
-                    # By default, it listens on port 8787 of all addresses, and warns if that port is taken.
+                    # By default, they listen at all addresses, and the scheduler warns if port 8787 is taken.
                     scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+                    worker_dashboard_address="127.0.0.1:0",
                 )
             )
             workers = f"{options.jobs} worker{'s' * (options.jobs > 1)}"

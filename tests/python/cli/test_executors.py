@@ -2,6 +2,7 @@
 
 import contextlib
 import json
+import os
 import re
 import signal
 import socket
@@ -279,6 +280,25 @@ def test_without_a_scheduler_workers_start_here(folder: Path, gradysim: Gradysim
     assert (process.returncode, errors) == (0, f"{LOCAL}\n")
     rows = [without_costs(row) for row in objects(printed)]
     assert rows == [without_costs(row) for row in objects(expected.stdout)]
+
+
+def listening(pid: int) -> set[str]:
+    """Return the addresses that a process listens at, as hexadecimal numbers."""
+    sockets = {os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()}
+    rows = [
+        row.split() for name in ("tcp", "tcp6") for row in Path(f"/proc/net/{name}").read_text().splitlines()
+    ]
+    return {row[1].split(":")[0] for row in rows if row[3] == "0A" and f"socket:[{row[9]}]" in sockets}
+
+
+@pytest.mark.verify
+@pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
+def test_other_machines_do_not_reach_workers_here(folder: Path) -> None:
+    with command(folder, *ONE_ENDS, "--jobs", "2") as process:
+        wait_for_the_second_run(folder)
+        assert listening(process.pid) <= {"0100007F"}  # 127.0.0.1
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
 
 
 @pytest.mark.verify
