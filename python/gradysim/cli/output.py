@@ -147,10 +147,11 @@ def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
 
 def make_result_dir(directory: Path) -> None:
     """Create the directory of --result-dir. Raises ConfigError, which names the option."""
+    from gradysim.results.durable import make_directory
     from gradysim.scenario.errors import ConfigError
 
     try:
-        directory.mkdir(parents=True, exist_ok=True)
+        make_directory(directory)
     except OSError as error:
         reason = "it is not a directory" if os.path.lexists(directory) else error.strerror or str(error)
         raise ConfigError(

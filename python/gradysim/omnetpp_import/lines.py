@@ -108,9 +108,9 @@ class LineTranslator:
             return left_out(entry, "without coordinateSystemModule it had no effect")
         try:
             place = number_of("m" if coordinate == "initialZ" else "deg", entry.text)
+            meters = self._scene.coordinate_m(entry, "XYZ".index(coordinate[-1]), place)
         except BadValue as error:
             return Outcome(Action.TO_WRITE, entry, f"{target} = ...", f"{entry.text}: {error}")
-        meters = self._scene.coordinate_m(entry, "XYZ".index(coordinate[-1]), place)
         return renamed(
             entry, target, f"{round(meters, 3) + 0.0:g}m" if abs(meters) < 1e3 else f"{meters:.3f}m"
         )
@@ -229,8 +229,9 @@ _UNCERTAIN = re.compile(r"\*\*|\.\.|[{\\]")
 
 def _own_keys(key: str) -> Sequence[Key]:
     """Return the keys of this simulator that the key of a line matches, judged by what is below a name."""
-    network, name, *below = PART.findall(key) if key.count(".") > 1 else (key, "")
-    if below and not _UNCERTAIN.search(f"{network} {name}"):
+    parts_of_key = PART.findall(key) if key.count(".") > 1 else ()
+    if len(parts_of_key) > 2 and not _UNCERTAIN.search(" ".join(parts_of_key[:2])):
+        _, name, *below = parts_of_key
         return _keys_below(name if name in NETWORK_MODULES else "", ".".join(below))
     try:
         pattern = compile_pattern(key)

@@ -93,6 +93,9 @@ class ProtocolTranslator:
         if name != class_key or FILE_NAME not in python:
             return left_out(entry, "part of `protocol.class`")
         texts = {key: unquoted(other.text) for key, other in python.items() if is_quoted(other.text)}
+        if not texts.keys() >= {FILE_NAME, class_key}:
+            note = "the name of its file or class is not in quotes"
+            return Outcome(Action.TO_WRITE, entry, f"{node}.{CLASS_TO_WRITE}", note)
         folders = [self._folder, texts.get(LOCATION, ".")]
         folders += [texts[PROTOCOL]] if class_key != PROTOCOL and PROTOCOL in texts else []
         file = Path(*folders) / f"{texts[FILE_NAME].removesuffix('.py')}.py"

@@ -1,6 +1,7 @@
 """Where geographic positions are in the scene of a configuration."""
 
 import contextlib
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from fnmatch import fnmatchcase
@@ -45,17 +46,23 @@ class Scene:
         )
 
     def position(self, entry: Entry, latitude: float, longitude: float, altitude: float) -> Position:
-        """Return x, y and z in meters of a position in degrees and meters, in the scene of a line."""
+        """Return x, y and z in meters of a position in degrees and meters, in the scene of a line.
+
+        Raises BadValue for a latitude beyond a pole, and for an infinite coordinate.
+        """
+        _check_latitude(latitude)
+        if not (math.isfinite(longitude) and math.isfinite(altitude)):
+            raise BadValue("it is infinite")
         return geo_to_cartesian(self._origins[entry], (latitude, longitude, altitude))
 
     def coordinate_m(self, entry: Entry, axis: int, value: float) -> float:
         """Return one coordinate in meters: that of a latitude, a longitude or an altitude.
 
-        Meters per degree of longitude are those at the latitude of the scene.
+        Meters per degree of longitude are those at the latitude of the scene. Raises BadValue as `position`.
         """
         origin = self._origins[entry]
         latitude, longitude, altitude = (value if axis == each else origin[each] for each in range(3))
-        return geo_to_cartesian(origin, (latitude, longitude, altitude))[axis]
+        return self.position(entry, latitude, longitude, altitude)[axis]
 
 
 def _origin(lines: Sequence[Entry]) -> Position:
@@ -71,8 +78,17 @@ def _first_number(lines: Iterable[Entry], parameter: str, unit: str) -> float:
     for entry in lines:
         if entry.key.endswith(f"coordinateSystem.{parameter}"):
             with contextlib.suppress(BadValue):
-                return number_of(unit, entry.text)
+                number = number_of(unit, entry.text)
+                if parameter == "sceneLatitude":
+                    _check_latitude(number)
+                if math.isfinite(number):
+                    return number
     return 0.0
+
+
+def _check_latitude(latitude: float) -> None:
+    if not abs(latitude) <= 90.0:
+        raise BadValue(f"a latitude of {latitude:g} degrees; expected one from -90deg to 90deg")
 
 
 def group_in(key: str) -> str:

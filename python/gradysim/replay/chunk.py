@@ -24,6 +24,7 @@ from gradysim.replay.tables import ARRAY_TYPES, BROADCAST, BYTES, TABLES, Column
 Values: TypeAlias = "array[Any]"
 
 _LEVEL = 6
+_OF_OTHER_HEADERS = (KeyError, TypeError, AttributeError, OverflowError, RecursionError)
 
 
 @dataclass
@@ -173,7 +174,7 @@ def unpack(data: bytes) -> Chunk:
             for name, type_name, delta, size in described["columns"]:
                 columns[name] = _values(Column(name, type_name, delta), data[place : place + size])
                 place += size
-    except (struct.error, KeyError, TypeError, zlib.error) as error:
+    except (struct.error, zlib.error, *_OF_OTHER_HEADERS) as error:
         raise ValueError(f"not a chunk of a replay: {error}") from error
     return chunk
 

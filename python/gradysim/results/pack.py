@@ -87,7 +87,13 @@ def packed_files(pack: Path) -> dict[str, PackedFile]:
     """Return the result files in a pack by name. Raises OSError."""
     with opened(pack) as connection:
         rows = connection.execute("SELECT fileName, fileSize, fileTimeNs FROM packedRun")
-        return {name_of(name): PackedFile(size, time_ns) for name, size, time_ns in rows}
+        return {name_of(name): _state(size, time_ns) for name, size, time_ns in rows}
+
+
+def _state(size: object, time_ns: object) -> PackedFile:
+    if not (isinstance(size, int) and isinstance(time_ns, int)):
+        raise TypeError(f"expected integers, got {size!r} and {time_ns!r}")
+    return PackedFile(size, time_ns)
 
 
 def packed_bytes(file: Path) -> bytes | None:
@@ -116,7 +122,7 @@ def packed_texts(pack: Path) -> Iterator[tuple[str, PackedFile, bytes]]:
             " ORDER BY runId"
         )
         for name, size, time_ns, text in rows:
-            yield name_of(name), PackedFile(size, time_ns), text
+            yield name_of(name), _state(size, time_ns), text
 
 
 def packed_summaries(pack: Path, directory: Path) -> Iterator[tuple[PackedFile, RunSummary, bool]]:
@@ -137,7 +143,7 @@ def packed_summaries(pack: Path, directory: Path) -> Iterator[tuple[PackedFile, 
             conditions, row_of = known[key]
             others = json.loads(left_out) if left_out else {}
             summary = RunSummary(conditions, run, seed, row_of(numbers), others, directory, name_of(name))
-            yield PackedFile(size, time_ns), summary, bool(interrupted)
+            yield _state(size, time_ns), summary, bool(interrupted)
 
 
 def conditions_of(summary: RunSummary) -> tuple[str, str, bytes]:

@@ -11,7 +11,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.results.durable import bytes_in, check_replaceable, replacing
+from gradysim.results.durable import bytes_in, check_replaceable, replacing, replacing_all
 from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp import TABLES as OMNETPP_TABLES
 from gradysim.results.omnetpp import RunIdentity, create_tables, insert_run, open_unfinished, storable
@@ -89,16 +89,15 @@ def unpack(directory: Path, packs: Iterable[Path], *, remove: bool = False) -> i
         newest = _newest(map(packed_files, packs))
         loose = loose_files(directory)
         written: dict[str, bytes] = {}
-        for each in packs:
-            for name, state, content in packed_texts(each):
-                if newest[name] == state and name not in loose and name not in written:
-                    with replacing(directory / name, synced=False) as unfinished:
-                        unfinished.write_bytes(content)
-                        os.utime(unfinished, ns=(state.time_ns, state.time_ns))
-                    written[name] = _digest(content)
+        with replacing_all() as unfinished:
+            for each in packs:
+                for name, state, content in packed_texts(each):
+                    if newest[name] == state and name not in loose and name not in written:
+                        file = unfinished(directory / name)
+                        file.write_bytes(content)
+                        os.utime(file, ns=(state.time_ns, state.time_ns))
+                        written[name] = _digest(content)
         if remove:
-            if hasattr(os, "sync"):
-                os.sync()  # once: a sync of each file takes milliseconds
             for name in newest:
                 _check_unpacked(directory / name, written.get(name))
             _remove(packs)

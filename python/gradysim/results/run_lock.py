@@ -21,7 +21,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from gradysim.results.durable import finished_name
+from gradysim.results.durable import finished_name, make_directory
 from gradysim.results.pack import PACKS
 
 LOCK_FILE = ".gradysim.lock"
@@ -70,7 +70,7 @@ def run_locked(directory: Path, name: str) -> Iterator[None]:
     A process that opens the lock file once more and closes it loses its locks, so it computes one run at a
     time. Raises RunLockedError if another process holds the lock, and OSError.
     """
-    directory.mkdir(parents=True, exist_ok=True)
+    make_directory(directory)
     digest = hashlib.sha256(name.encode(errors="surrogatepass"))
     # 56 bits, so that two names have different values in practice.
     byte = int.from_bytes(digest.digest()[:7])

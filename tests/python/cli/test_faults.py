@@ -8,16 +8,21 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from python.torture.bad_disk import FAULTS, BadDisk
-from python.torture.faults import CASES, Bench
+from python.torture.faults import CASES, STEP, Bench
 from python.torture.study import OUT
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or shutil.which("cc") is None, reason="it preloads a library, which it compiles"
 )
 
-STEP = 7
-
-SAMPLE = {"run": "KILL", "run --replace": "ENOSPC"}
+SAMPLE = {
+    "run": "POWER",
+    "run --replace": "ENOSPC",
+    "run --resume": "INT",
+    "pack": "KILL",
+    "pack --unpack": "POWER",
+    "plot": "TERM",
+}
 """Faults of `make test`. All others are EIO."""
 
 

@@ -27,7 +27,8 @@ def test_a_file_is_on_the_disk_before_it_has_its_name_and_its_name_after_that(tm
     monkeypatch.setattr(Path, "replace", noted_replace)
     monkeypatch.setattr(os, "fsync", noted_fsync)
     write(tmp_path / "out" / "a.json", "new")
-    assert calls == [f"fsync a.json.{os.getpid()}", "replace a.json", "fsync out"]
+    file_first = [f"fsync a.json.{os.getpid()}", "replace a.json", "fsync out"]
+    assert calls == [f"fsync {tmp_path.name}", *file_first]
     assert (tmp_path / "out" / "a.json").read_text() == "new"
 
 

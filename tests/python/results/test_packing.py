@@ -178,7 +178,7 @@ def test_a_pack_stays_if_the_disk_loses_what_was_unpacked(
     file = write(tmp_path, 0)
     content = file.read_bytes()
     pack(tmp_path, default_pack(tmp_path), remove=True)
-    monkeypatch.setattr(os, "sync", lambda: file.write_bytes(bytes(len(content))))
+    monkeypatch.setattr(os, "sync", lambda: unfinished_file(file).write_bytes(bytes(len(content))))
     with pytest.raises(OSError, match="the packs stay") as raised:
         unpack(tmp_path, [default_pack(tmp_path)], remove=True)
     assert raised.value.filename == str(file)

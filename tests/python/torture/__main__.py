@@ -32,22 +32,27 @@ def main(minutes: float) -> int:
     Return the exit code: 1 if something was lost.
     """
     seeds = SystemRandom()
-    done: Counter[str] = Counter()
-    failures: Counter[str] = Counter()
-    spent_s = dict.fromkeys(KINDS, 0.0)
+    done: Counter[tuple[str, str]] = Counter()
+    failures: Counter[tuple[str, str]] = Counter()
+    spent_s: Counter[str] = Counter()
     end_s = time.monotonic() + 60 * minutes
     while (begin_s := time.monotonic()) < end_s:
-        kind = min(KINDS, key=lambda kind: spent_s[kind])
-        times, lost = harm(KINDS[kind], seeds.randrange(2**32))
-        done[kind] += times
+        kind = min(KINDS, key=lambda kind: spent_s[kind] / len(KINDS[kind]) ** 0.5)
+        harmed = min(KINDS[kind], key=lambda harmed: done[kind, harmed])
+        times, lost = harm(KINDS[kind][harmed], seeds.randrange(2**32))
+        done[kind, harmed] += times
         spent_s[kind] += time.monotonic() - begin_s
         if lost:
-            failures[kind] += 1
-            if failures[kind] == 1:  # the others are often the same
-                print(f"{kind}: {lost}", file=sys.stderr)
-    table = Table("harm", "times", "lost")
-    for kind in KINDS:
-        table.add_row(kind, f"{done[kind]:,}", f"{failures[kind]:,}" if failures[kind] else "nothing")
+            failures[kind, harmed] += 1
+            if failures[kind, harmed] == 1:  # the others are often the same
+                print(f"{kind}, {harmed}: {lost}", file=sys.stderr)
+    table = Table("kind", "harmed", "times", "lost")
+    for kind, several in KINDS.items():
+        for harmed in several:
+            lost_times = failures[kind, harmed]
+            table.add_row(
+                kind, harmed, f"{done[kind, harmed]:,}", f"{lost_times:,}" if lost_times else "nothing"
+            )
     Console().print(table)
     return 1 if failures.total() else 0
 

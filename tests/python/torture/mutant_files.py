@@ -123,15 +123,19 @@ _CHANGES: tuple[Callable[[str, random.Random], str], ...] = (
 )
 
 
+def changed(text: str, rng: random.Random) -> bytes:
+    """Return the text of an .ini file with some random changes. A few have bytes that are not text."""
+    for _ in range(rng.choice((1, 1, 2, 3, 6))):
+        text = rng.choice(_CHANGES)(text, rng) or "\n"
+    content = text.encode("utf-8", "surrogatepass")
+    if rng.random() < 0.05:
+        place = rng.randrange(len(content))
+        content = content[:place] + bytes([rng.randrange(256)]) + content[place + 1 :]
+    return content
+
+
 def mutant(seed: int) -> tuple[Path, bytes]:
     """Return a file of the project, and its changed content. Equal seeds give equal mutants."""
     rng = random.Random(seed)
     source = rng.choice(BASES)
-    text = source.read_text(encoding="utf-8")
-    for _ in range(rng.choice((1, 1, 2, 3, 6))):
-        text = rng.choice(_CHANGES)(text, rng) or "\n"
-    content = text.encode("utf-8", "surrogatepass")
-    if rng.random() < 0.05:  # bytes that may not be text
-        place = rng.randrange(len(content))
-        content = content[:place] + bytes([rng.randrange(256)]) + content[place + 1 :]
-    return source, content
+    return source, changed(source.read_text(encoding="utf-8"), rng)
