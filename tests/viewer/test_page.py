@@ -13,20 +13,32 @@ from subprocess import PIPE
 
 import pytest
 
+from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.replay import read_replay
+from gradysim.replay.sink import ReplayWriter
+from gradysim.scenario import load_scenarios
 from gradysim.simulator.extension.visualization_controller import VisualizationController
 from gradysim.simulator.handler.mobility import MobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.handler.visualization import VisualizationConfiguration, VisualizationHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
-from python.quiet_protocol import Quiet
+from python.quiet_protocol import QUIET, Quiet
 from python.thorough import some
 from viewer.conftest import record
 
 ROOT = Path(__file__).parents[2]
 INTERFERENCE = [0xC1, 0x12, 0x1F]
 RECEIVER_TRANSMITTING = [0xD9, 0x48, 0x0F]
+LOSS_ROWS = "[...document.querySelectorAll('.details td.muted')].map((cell) => cell.textContent)"
+SAYS = """
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+
+class Says(Quiet):
+    def initialize(self):
+        for message in ("nothing", "<b>needle</b> " + "x" * 300):
+            self.provider.send_communication_command(BroadcastMessageCommand(message))
+"""
 PAINTED = [0xFF, 0x00, 0xFF]
 SPEED_MPS = 10.0
 
@@ -108,6 +120,35 @@ def test_the_next_loss_says_who_interfered(zigzag, browser):
     )
     assert f"with {replay.run['nodes'][interferer]['name']} (" in said["text"]
     assert said["near_pixels"] > 300
+
+
+def test_a_frame_lost_behind_houses_says_which_ones(town, browser):
+    said = browser(town, keys=["Shift+ArrowRight", {"until": "West block"}], values={"rows": LOSS_ROWS})
+    assert (
+        "247 m take 88.0 dB of 13.0 dBm, West block over 300 dB, North-west block over 300 dB"
+        in said["values"]["rows"]
+    )
+    assert "no power, needs -85.0 dBm" in said["values"]["rows"]
+
+
+def test_a_message_is_shown_and_found(browser, tmp_path):
+    (tmp_path / "says.py").write_text(QUIET + SAYS, encoding="utf-8")
+    ini = "sim-time-limit = 1s\n*.uavs.count = 2\n*.uavs[*].mobility.lineStepX = 10m\n"
+    (tmp_path / "says.ini").write_text(
+        f'[General]\n{ini}*.uavs[*].protocol.class = "says.py:Says"\n', encoding="utf-8"
+    )
+    IntegratedRun(
+        load_scenarios(tmp_path / "says.ini")[0], replay=ReplayWriter(tmp_path / "run.html")
+    ).execute()
+    shown = "document.querySelector('.details .text').textContent"
+    filtered = "#t=0&filter=text:NEEDLE"
+    said = browser(
+        tmp_path / "run.html", address=filtered, keys=["ArrowRight"], until="Show all", values={"text": shown}
+    )
+    assert said["values"]["text"] == "<b>needle</b> " + "x" * 186
+    show = {"click": ".details button:text('Show all')"}
+    said = browser(tmp_path / "run.html", address=filtered, keys=["ArrowRight", show], values={"text": shown})
+    assert said["values"]["text"] == "<b>needle</b> " + "x" * 300
 
 
 @pytest.mark.verify

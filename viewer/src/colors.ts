@@ -7,7 +7,7 @@ type Pair = readonly [light: string, dark: string];
 /** `dash`: length of the dashes of a lost one, in pixels. Red and orange: other frames were in the way. */
 const OUTCOMES: Record<string, { color: Pair; dash: number }> = {
   delivered: { color: ["#5f86ad", "#7fa3c7"], dash: 0 },
-  below_sensitivity: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
+  below_sensitivity: { color: ["#9a9a9a", "#7a7a7a"], dash: 4 },
   in_air: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
   out_of_range: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
   interference: { color: ["#c1121f", "#ff4d5e"], dash: 8 },

@@ -2,9 +2,9 @@
 
 import { outcomeWords } from "./colors";
 import { BROADCAST } from "./format";
-import { causeText, senderOf } from "./frame_text";
+import { causeText, messageOf, senderOf } from "./frame_text";
 import { Reception } from "./receptions";
-import { Chunk, Replay } from "./replay";
+import { Chunk, Frame, Replay } from "./replay";
 
 export const KEYS: Record<string, string> = {
   node: "sent or noticed by this node, or by a node of this group (id or name)",
@@ -15,6 +15,7 @@ export const KEYS: Record<string, string> = {
   kind: "broadcast, unicast, ack, rts, cts",
   timer: "sent by the handler of this timer",
   cause: "sent by this callback",
+  text: "whose message has this word",
 };
 
 export interface Filter {
@@ -33,6 +34,7 @@ const ALL_OUTCOMES = 0xffff; // bits
 export function parseFilter(text: string, replay: Replay): Filter {
   const tests: Test[] = [];
   let outcomes = ALL_OUTCOMES;
+  let isUnnoticed = true; // whether frames that a node did not notice fit, too
   let at: Nodes | null = null;
   let either: Nodes | null = null;
   for (const term of termsOf(text, replay)) {
@@ -45,7 +47,7 @@ export function parseFilter(text: string, replay: Replay): Filter {
     }
     if (!(key in KEYS)) throw new Error(`"${key}" is not a key; expected ${Object.keys(KEYS).join(", ")}`);
     if (!value) continue;
-    if (key === "outcome") outcomes = outcomeBits(value, replay);
+    if (key === "outcome") [outcomes, isUnnoticed] = [outcomeBits(value, replay), value !== "lost"];
     else if (key === "at") at = nodesOf(value, replay);
     else if (key === "node") either = nodesOf(value, replay);
     else tests.push(testOf(key, value, replay));
@@ -54,7 +56,7 @@ export function parseFilter(text: string, replay: Replay): Filter {
     ((outcomes >> reception.outcome) & 1) === 1 &&
     (at === null || at.has(reception.receiver)) &&
     (either === null || either.has(sender) || either.has(reception.receiver));
-  const isUnnoticed = ((outcomes >> replay.unnoticed) & 1) === 1;
+  isUnnoticed &&= ((outcomes >> replay.unnoticed) & 1) === 1;
   if (at !== null || either !== null)
     tests.push((chunk, row) => {
       const frame = { chunk, row };
@@ -95,6 +97,7 @@ function testOf(key: string, value: string, replay: Replay): Test {
     if (kind < 0) throw new Error(`"${value}" is not a kind; expected ${replay.run.kinds.join(", ")}`);
     return (chunk, row) => chunk.frames.table.kind[row] === kind;
   }
+  if (key === "text") return (chunk, row) => says({ chunk, row }, value);
   const wanted = key === "timer" ? `timer ${value}` : value;
   return (chunk, row) => {
     const cause = chunk.strings[chunk.frames.table.cause[row]].toLowerCase();
@@ -102,15 +105,20 @@ function testOf(key: string, value: string, replay: Replay): Test {
   };
 }
 
-/** A word without a key: in what the list shows of a frame. */
+/** A word without a key: in what the list shows of a frame, or in its message. */
 function testOfWord(word: string, replay: Replay): Test {
   const named = [...replay.nodes.values()].filter((node) => node.name.toLowerCase().includes(word));
   const nodes = new Set(named.map((node) => node.id));
   return (chunk, row) => {
     const { node, destination } = chunk.frames.table;
     if (nodes.has(node[row]) || nodes.has(destination[row])) return true;
-    return causeText(replay, { chunk, row }).toLowerCase().includes(word);
+    return causeText(replay, { chunk, row }).toLowerCase().includes(word) || says({ chunk, row }, word);
   };
+}
+
+/** Whether the recorded beginning of a frame's message has a word, written in lower case. */
+function says(frame: Frame, word: string): boolean {
+  return messageOf(frame)?.lower.includes(word) ?? false;
 }
 
 function nodesOf(value: string, replay: Replay): Nodes {

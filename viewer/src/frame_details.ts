@@ -2,17 +2,14 @@
 
 import { Interferer } from "./air";
 import { outcomeColor, outcomeWords } from "./colors";
-import { button, distanceText, durationText, make, timeText } from "./dom";
-import { NO_POWER, Table } from "./format";
-import { causeText, destinationText, senderOf } from "./frame_text";
+import { button, countText, distanceText, durationText, make, timeText } from "./dom";
+import { causeText, destinationText, messageOf, senderOf } from "./frame_text";
+import { between, Loss, lossTexts, readLosses } from "./losses";
 import { Reception } from "./receptions";
 import { Frame, Replay, startOf } from "./replay";
 
-interface Loss {
-  power: number;
-  interference: number;
-  interferers: number[];
-}
+/** Of a message. */
+const SHOWN_CHARACTERS = 200;
 
 export class FrameDetails {
   readonly element = make("div", { class: "details" });
@@ -33,32 +30,13 @@ export class FrameDetails {
     }
     [this.frame, this.node] = [frame, node];
     if (frame === null) return;
-    const losses = await readLosses(frame);
+    const losses = await readLosses(this.replay, frame);
     if (this.frame !== frame || this.node !== node) return;
     this.interferers = [];
     for (const [receiver, loss] of losses)
-      for (const node of loss.interferers) this.interferers.push({ node, receiver });
+      for (const { node } of loss.interferers) this.interferers.push({ node, receiver });
     this.element.replaceChildren(...describe(this.replay, frame, node, losses, this.close));
   }
-}
-
-/** Return what is known of the losses of a frame, by receiver. */
-async function readLosses({ chunk, row }: Frame): Promise<Map<number, Loss>> {
-  const [losses, interferers] = await Promise.all([chunk.table("losses"), chunk.table("interferers")]);
-  const found = new Map<number, Loss>();
-  for (const place of rowsOf(losses, row))
-    found.set(losses.receiver[place], {
-      power: losses.power_cdbm[place],
-      interference: losses.interference_cdbm[place],
-      interferers: [],
-    });
-  for (const place of rowsOf(interferers, row)) {
-    const receiver = interferers.receiver[place];
-    const loss = found.get(receiver) ?? { power: NO_POWER, interference: NO_POWER, interferers: [] };
-    loss.interferers.push(interferers.node[place]);
-    found.set(receiver, loss);
-  }
-  return found;
 }
 
 function describe(
@@ -77,13 +55,14 @@ function describe(
     `${table.bytes[frame.row]} bytes${bitrateText(table.bitrate_bps[frame.row])}`,
   ];
   const noticed = frame.chunk.frames.receptions(frame.row);
-  if (chosen !== null && replay.isUnnoticedAt(chosen, frame))
+  const isThere = noticed.some(({ receiver }) => receiver === chosen);
+  if (chosen !== null && !isThere && replay.isUnnoticedAt(chosen, frame))
     noticed.push({ receiver: chosen, outcome: replay.unnoticed });
   // The chosen node first, then losses of which more is known, then other losses.
   const rank = ({ receiver, outcome }: Reception): number =>
     receiver === chosen ? 3 : losses.has(receiver) ? 2 : Number(replay.isLost[outcome]);
   const receptions = noticed
-    .map((reception) => ({ ...reception, distance: distance(replay, frame, reception.receiver) }))
+    .map((reception) => ({ ...reception, distance: between(replay, frame, sender, reception.receiver) }))
     .sort((a, b) => rank(b) - rank(a) || a.distance - b.distance);
   const body = make("tbody");
   for (const { receiver, outcome, distance: meters } of receptions) {
@@ -93,15 +72,12 @@ function describe(
     words.style.setProperty("--color", outcomeColor(name));
     const cells = [[replay.nameOf(receiver)], [words], [distanceText(meters)]];
     body.append(make("tr", {}, ...cells.map((cell) => make("td", {}, ...cell))));
-    const by = loss?.interferers.map(
-      (other) => `${replay.nameOf(other)} (${distanceText(between(replay, frame, other, receiver))})`,
-    );
-    const others = by?.length ? `with ${by.join(", ")}${strengthText(loss?.interference)}` : "";
-    const reason = [`power${strengthText(loss?.power)}`, others].filter((part) => part && part !== "power").join(", ");
-    if (reason) body.append(make("tr", {}, make("td", { class: "muted", colspan: "3" }, reason)));
+    for (const text of loss ? lossTexts(replay, frame, receiver, loss) : [])
+      body.append(make("tr", {}, make("td", { class: "muted", colspan: "3" }, text)));
   }
   const heads = ["at", "outcome", "distance"].map((head) => make("th", {}, head));
-  const unnoticed = table.unnoticed[frame.row];
+  const shown = noticed.filter(({ outcome }) => outcome === replay.unnoticed).length;
+  const unnoticed = table.unnoticed[frame.row] - shown;
   return [
     make(
       "div",
@@ -110,31 +86,32 @@ function describe(
       make("span", { class: "end" }, button("✕", "Close (Esc)", close)),
     ),
     make("p", { class: "message" }, facts.join(" · ")),
+    ...describeMessage(frame),
     ...(replay.isInAir(frame) ? [make("p", { class: "message" }, "In the air at the end.")] : []),
     ...(unnoticed ? [make("p", { class: "message" }, unnoticedText(replay, unnoticed))] : []),
     make("table", {}, make("thead", {}, make("tr", {}, ...heads)), body),
   ];
 }
 
-/** The rows of a table, sorted by frame, that belong to a frame. */
-function* rowsOf(table: Table, frame: number): Generator<number> {
-  let low = 0;
-  let high = table.frame.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (table.frame[middle] < frame) low = middle + 1;
-    else high = middle;
+/** The beginning of the message, and a button that shows what else is recorded of it. */
+function describeMessage(frame: Frame): HTMLElement[] {
+  const { chunk, row } = frame;
+  if (chunk.texts.isLeftOut(chunk.frames.table.text[row]))
+    return [make("p", { class: "message" }, "Its text was not recorded: this part of the run has too many.")];
+  const message = messageOf(frame);
+  if (message === null) return [];
+  const { text, bytes, isWhole } = message;
+  const rest = isWhole ? "" : ` … (${countText(bytes)} bytes; the record has their beginning)`;
+  const shown = make("p", { class: "text" }, text.slice(0, SHOWN_CHARACTERS));
+  if (text.length <= SHOWN_CHARACTERS) {
+    shown.append(rest);
+    return [shown];
   }
-  for (; low < table.frame.length && table.frame[low] === frame; low += 1) yield low;
-}
-
-function distance(replay: Replay, frame: Frame, receiver: number): number {
-  return between(replay, frame, senderOf(frame), receiver);
-}
-
-function between(replay: Replay, frame: Frame, a: number, b: number): number {
-  const [from, to] = [replay.position(a, frame), replay.position(b, frame)];
-  return Math.hypot(from[0] - to[0], from[1] - to[1], from[2] - to[2]);
+  const more = button("… Show all", "Show the rest of the message", () => {
+    shown.textContent = text + rest;
+    more.remove();
+  });
+  return [shown, more];
 }
 
 function unnoticedText(replay: Replay, count: number): string {
@@ -145,9 +122,4 @@ function unnoticedText(replay: Replay, count: number): string {
 /** Prototype mode has no bit rates. */
 function bitrateText(bitrateBps: number): string {
   return bitrateBps ? ` at ${(bitrateBps / 1e6).toLocaleString("en-US")} Mbit/s` : "";
-}
-
-/** ": -83.8 dBm"; "" if it is not known. */
-function strengthText(power: number | undefined): string {
-  return power === undefined || power === NO_POWER ? "" : `: ${(power / 100).toFixed(1)} dBm`;
 }

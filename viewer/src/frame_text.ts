@@ -2,6 +2,7 @@
 
 import { BROADCAST } from "./format";
 import { Frame, Replay } from "./replay";
+import { Message } from "./texts";
 
 export function senderOf({ chunk, row }: Frame): number {
   return chunk.frames.table.node[row];
@@ -10,6 +11,11 @@ export function senderOf({ chunk, row }: Frame): number {
 export function destinationText(replay: Replay, { chunk, row }: Frame): string {
   const destination = chunk.frames.table.destination[row];
   return destination === BROADCAST ? "all" : replay.nameOf(destination);
+}
+
+/** The message of a frame; null if it has none, or if it was left out of the record. */
+export function messageOf({ chunk, row }: Frame): Message | null {
+  return chunk.texts.of(chunk.frames.table.text[row]);
 }
 
 /** What made a node send the frame: "timer beacon"; of an acknowledgment, its kind. */

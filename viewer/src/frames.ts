@@ -3,7 +3,7 @@
 import { outcomeColor, outcomeWords } from "./colors";
 import { make, timeText } from "./dom";
 import { Filter, KEYS } from "./filter";
-import { causeText, destinationText, senderOf } from "./frame_text";
+import { causeText, destinationText, messageOf, senderOf } from "./frame_text";
 import { Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";
@@ -11,6 +11,7 @@ import { Store } from "./state";
 const BEFORE = 30;
 const AFTER = 15;
 const ROW_PX = 24;
+const SHOWN_CHARACTERS = 100;
 
 /** Whether a frame of the whole run fits, as far as that is known. */
 interface Search {
@@ -152,22 +153,25 @@ export class FrameList {
     const [time, who, cause, what] = element.children as HTMLCollectionOf<HTMLElement>;
     setText(time, timeText(startOf(frame)));
     setText(who, `${this.replay.nameOf(senderOf(frame))} → ${destinationText(this.replay, frame)}`);
-    setText(cause, causeText(this.replay, frame));
+    const text = messageOf(frame)?.text.slice(0, SHOWN_CHARACTERS) ?? "";
+    setText(cause, [causeText(this.replay, frame), text].filter(Boolean).join(": "));
     element.title = `${who.textContent}, ${cause.textContent}`;
-    const { unnoticed } = this.replay;
+    const { unnoticed, isLost } = this.replay;
     const counts = new Map<number, number>();
     for (const { outcome } of chunk.frames.receptions(row)) counts.set(outcome, (counts.get(outcome) ?? 0) + 1);
-    const parts: ([number, number] | string)[] = [...counts].sort((a, b) => a[0] - b[0]);
+    const parts: ([number, number, boolean] | string)[] = [...counts]
+      .sort((a, b) => a[0] - b[0])
+      .map(([outcome, count]) => [outcome, count, isLost[outcome]]);
     if (this.replay.isInAir(frame)) parts.push("in the air at the end");
     else if (table.receptions[row] && !parts.length) parts.push("not recorded");
-    if (table.unnoticed[row]) parts.push([unnoticed, table.unnoticed[row]]);
+    const tooFar = table.unnoticed[row] - (counts.get(unnoticed) ?? 0);
+    if (tooFar) parts.push([unnoticed, tooFar, false]);
     showRows(what, parts, () => make("i"), (part, counted) => {
       const name = typeof counted === "string" ? "" : this.replay.run.outcomes[counted[0]];
       setText(part, typeof counted === "string" ? counted : String(counted[1]));
       part.title = name ? outcomeWords(name) : "";
       part.style.setProperty("--color", name ? outcomeColor(name) : "transparent");
-      const isLost = typeof counted !== "string" && this.replay.isLost[counted[0]];
-      part.className = name ? (isLost ? "lost" : "") : "none";
+      part.className = name ? (typeof counted !== "string" && counted[2] ? "lost" : "") : "none";
     });
     element.classList.toggle("later", startOf(frame) > timeNs);
     element.setAttribute("aria-pressed", String(isSameFrame(frame, this.store.now.frame)));

@@ -17,7 +17,7 @@ export class Frames {
   readonly outcomes: Uint16Array;
   /** How many receptions of a frame were lost. */
   readonly lost: Uint32Array;
-  /** How many receptions of a frame are known. */
+  /** How many receptions of a frame that were noticed are known. */
   readonly known: Uint32Array;
 
   private readonly sender: Uint32Array; // of a row
@@ -32,6 +32,7 @@ export class Frames {
     private readonly changed: Table,
     nodeCount: number,
     private readonly isLost: readonly boolean[],
+    private readonly unnoticed: number,
   ) {
     this.count = table.node.length;
     this.outcomes = new Uint16Array(this.count);
@@ -70,7 +71,7 @@ export class Frames {
     return low;
   }
 
-  /** Return what became of a frame at each receiver that noticed it, by receiver. */
+  /** Return what became of a frame at each receiver that noticed or lost it, by receiver. */
   receptions(row: number): Reception[] {
     const found: Reception[] = [];
     const sender = this.sender[row];
@@ -107,6 +108,10 @@ export class Frames {
     }
   }
 
+  private isNoticed(outcome: number): boolean {
+    return outcome !== BELOW_SENSITIVITY && outcome !== this.unnoticed;
+  }
+
   /** Go through the frames of a sender and the changes between them. `last` is all 0 before and after. */
   private walk(sender: number, last: Uint32Array): void {
     const { receiver, outcome, frame } = this.changed;
@@ -129,14 +134,14 @@ export class Frames {
           counts[old] -= 1;
           if (counts[old] === 0 && old < 16) mask &= ~(1 << old);
           if (this.isLost[old]) lost -= 1;
-          if (old !== BELOW_SENSITIVITY) known -= 1;
+          if (this.isNoticed(old)) known -= 1;
         }
         last[receiver[change]] = change + 1;
         const now = outcome[change];
         counts[now] += 1;
         if (now < 16) mask |= 1 << now;
         if (this.isLost[now]) lost += 1;
-        if (now !== BELOW_SENSITIVITY) known += 1;
+        if (this.isNoticed(now)) known += 1;
       }
       this.outcomes[row] = mask;
       this.lost[row] = lost;

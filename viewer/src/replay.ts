@@ -6,6 +6,7 @@ import { Look, plainLook } from "./look";
 import { Frames } from "./receptions";
 import { Source } from "./source";
 import { Tally } from "./tally";
+import { Texts } from "./texts";
 
 /** How much is kept decoded; what was used the longest time ago goes first. */
 const KEPT_CHUNKS = 6;
@@ -17,7 +18,7 @@ const LONGEST_FRAME_NS = 2e9;
 const PLAIN = plainLook();
 
 const OF_PROTOTYPE = ["delivered", "out_of_range", "lost"];
-const NOT_LOST = ["delivered", "below_sensitivity", "in_air", "out_of_range"];
+const NOT_LOST = ["delivered", "in_air", "out_of_range"];
 
 /** A decoded chunk. */
 export class Chunk {
@@ -28,6 +29,7 @@ export class Chunk {
     readonly stored: StoredChunk,
     readonly frames: Frames,
     readonly legs: Legs,
+    readonly texts: Texts,
   ) {}
 
   /** How many rows are decoded. */
@@ -66,11 +68,12 @@ export class Replay {
   readonly nodes: ReadonlyMap<number, RunNode>;
   /** One more than the largest id. */
   readonly nodeCount: number;
-  readonly isLost: readonly boolean[];
   /** Whether the run has frames and events; otherwise only positions and variables. */
   readonly hasFrames: boolean;
   /** Whether all is recorded at all nodes. */
   readonly isWhole: boolean;
+  /** Whether a reception with an outcome is lost, by number. Those that were not noticed only if they are recorded. */
+  readonly isLost: readonly boolean[];
   /** Outcomes that a reception of this mode can have before the run ends, by number. */
   readonly possible: readonly number[];
   /** The outcome of a reception that is not noticed. */
@@ -246,7 +249,7 @@ export class Replay {
     if (node === sender[row] || frames.known[row] !== receptions[row]) return false;
     const all = receptions[row] + unnoticed[row];
     const has = all === this.nodes.size - 1 || (all === 1 && destination[row] === node);
-    return has && frames.receptions(row).every(({ receiver }) => receiver !== node);
+    return has && frames.receptions(row).every((one) => one.receiver !== node || one.outcome === this.unnoticed);
   }
 
   /**
@@ -276,7 +279,7 @@ export class Replay {
   }
 
   private newTally(): Tally {
-    return new Tally(this.nodes.size, this.nodeCount, this.run.outcomes.length, this.isWhole);
+    return new Tally(this.nodes.size, this.nodeCount, this.run.outcomes.length, this.unnoticed, this.isWhole);
   }
 
   private neededAt(timeNs: number): number[] {
@@ -300,14 +303,14 @@ export class Replay {
 
   private async decode(index: number): Promise<Chunk> {
     const stored = this.chunks[index];
-    const [frames, receptions, legs] = await Promise.all(
-      ["frames", "receptions", "legs"].map((name) => stored.table(name)),
-    );
+    const names = ["frames", "receptions", "legs", "texts", "text_bytes"];
+    const [frames, receptions, legs, texts, bytes] = await Promise.all(names.map((name) => stored.table(name)));
     const chunk = new Chunk(
       index,
       stored,
-      new Frames(frames, receptions, this.nodeCount, this.isLost),
+      new Frames(frames, receptions, this.nodeCount, this.isLost, this.unnoticed),
       new Legs(legs, this.nodeCount),
+      new Texts(texts, bytes),
     );
     this.decoded.set(index, chunk);
     let rows = 0;

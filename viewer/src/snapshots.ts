@@ -30,7 +30,7 @@ const STEP_MS = 50;
 
 const LEGS = ["time_ns", "duration_ns", "node", "x0", "y0", "z0", "x1", "y1", "z1"];
 const VARIABLES = ["time_ns", "node", "name", "value", "text"];
-const NO_ROWS = tableOf(["time_ns", "node", "frame"], []);
+const NO_ROWS = tableOf(["time_ns", "node", "frame", "recorded", "byte"], []);
 
 class SnapshotSource implements Source {
   readonly isLive = true;
@@ -136,6 +136,8 @@ class SnapshotSource implements Source {
       legs: tableOf(LEGS, legs),
       variables: variables.length ? tableOf(VARIABLES, variables) : NO_ROWS,
       events: NO_ROWS,
+      texts: NO_ROWS,
+      text_bytes: NO_ROWS,
     };
     const counts = Object.entries(tables).map(([name, { time_ns }]) => [name, { rows: time_ns.length }] as const);
     const header = {

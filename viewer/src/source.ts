@@ -20,7 +20,7 @@ export interface Source {
   tell(timeNs: number, speed: number, isPlaying: boolean): void;
 }
 
-export const FORMAT = 1;
+export const FORMAT = 2;
 
 /** The run that the page itself holds; null if it holds none. */
 export function fileSource(): Source | null {

@@ -24,6 +24,7 @@ export class Tally {
     private readonly nodes: number,
     private readonly nodeCount: number,
     private readonly outcomes: number,
+    private readonly unnoticedOutcome: number,
     private readonly isWhole: boolean,
   ) {
     this.counts = new Float64Array(nodeCount * outcomes);
@@ -31,7 +32,7 @@ export class Tally {
   }
 
   copy(): Tally {
-    const copy = new Tally(this.nodes, this.nodeCount, this.outcomes, this.isWhole);
+    const copy = new Tally(this.nodes, this.nodeCount, this.outcomes, this.unnoticedOutcome, this.isWhole);
     const { frames, unnoticed, sent, isEachKnown } = this;
     Object.assign(copy, { frames, unnoticed, sent, isEachKnown });
     copy.counts.set(this.counts);
@@ -70,7 +71,8 @@ export class Tally {
     if (node === null) return this.unnoticed;
     if (!this.isEachKnown) return null;
     const first = node * this.outcomes;
-    const noticed = this.counts.subarray(first, first + this.outcomes).reduce((sum, count) => sum + count, 0);
+    const counts = this.counts.subarray(first, first + this.outcomes);
+    const noticed = counts.reduce((sum, count, outcome) => sum + (outcome === this.unnoticedOutcome ? 0 : count), 0);
     return this.sent + this.more[node] - noticed;
   }
 

@@ -183,6 +183,8 @@ void IdealInterface::transmit(std::size_t exchange) {
         channel_.longest_airtime = std::max(channel_.longest_airtime, airtime);
         add_stretch(shared_channel().own_, {sent->start, sent->start + airtime, 0, id_, label.number});
     }
+    FrameObserver* const observer = frame_fates_.observer();
+    std::vector<FrameObserver::Loss> missed;
     CopyCount addressed;
     SimTime last_end = simulator_.now();
     for (IdealInterface* const node : channel_.interfaces) {
@@ -207,6 +209,9 @@ void IdealInterface::transmit(std::size_t exchange) {
         ++addressed.made;
         if (!reach.is_heard) {
             ++addressed.too_weak;
+            if (radio_ && observer != nullptr && observer->explains(id_, node->id_)) {
+                add_missed(*sent, *reach.receiver, reach.arrival.place, missed);
+            }
             continue;
         }
         const std::size_t flight = flights_.add({exchange, sent, reach.receiver, reach.arrival});
@@ -214,8 +219,8 @@ void IdealInterface::transmit(std::size_t exchange) {
         simulator_.schedule_at(reach.arrival.end, [this, flight] { deliver(flight); });
     }
     exchanges_[exchange].is_heard = addressed.made > addressed.too_weak;
-    if (FrameObserver* const observer = frame_fates_.observer(); observer != nullptr) {
-        observer->frame_begins(*sent, addressed.made - addressed.too_weak, addressed.too_weak);
+    if (observer != nullptr) {
+        observer->frame_begins(*sent, addressed.made - addressed.too_weak, addressed.too_weak, missed);
     }
     frame_fates_.book_transmission(label, addressed, CopyCount{});
     if (timing_.is_instant() && !radio_) {
@@ -224,6 +229,17 @@ void IdealInterface::transmit(std::size_t exchange) {
     } else {
         simulator_.schedule_at(std::max(simulator_.now() + occupied, last_end),
                                [this, exchange] { end_exchange(exchange); });
+    }
+}
+
+void IdealInterface::add_missed(const Transmission& sent, const IdealInterface& receiver,
+                                const Position& place, std::vector<FrameObserver::Loss>& missed) const {
+    const Links& links = links_of(channel_);
+    const RadioId radio = receiver.radio_id_;
+    if (sent.label.destination == receiver.id_ || links.is_in_steady_reach(sent, radio, place)) {
+        if (auto loss = links.below_sensitivity(sent, radio, place)) {
+            missed.push_back(std::move(*loss));
+        }
     }
 }
 
@@ -267,7 +283,7 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
                other.end > flight.arrival.start;
     };
     double interference_w = 0;
-    std::vector<NodeId> interferers;
+    std::vector<FrameObserver::Interferer> interferers;
     if (timing_.collides()) {
         if (std::ranges::any_of(shared_channel().own_, overlaps)) {
             return FrameFate::receiver_transmitting;
@@ -282,8 +298,9 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
                 sum_w += other.start <= time && other.end > time ? other.power_w : 0;
             }
             interference_w = std::max(interference_w, sum_w);
-            if (std::ranges::find(interferers, at.sender) == interferers.end()) {
-                interferers.push_back(at.sender);
+            if (std::ranges::find(interferers, at.sender, &FrameObserver::Interferer::node) ==
+                interferers.end()) {
+                interferers.push_back({at.sender, at.power_w});
             }
         }
     }
@@ -314,15 +331,27 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
 }
 
 void IdealInterface::book_loss(const Flight& flight, FrameFate fate, double interference_w,
-                               const std::vector<NodeId>& interferers) {
-    if (FrameObserver* const observer = frame_fates_.observer(); observer != nullptr) {
-        observer->frame_lost(flight.sent->id(), id_,
-                             {.power_w = flight.arrival.power_w,
-                              .interference_w = fate == FrameFate::noise ? 0 : interference_w,
-                              .interferers = interferers});
+                               std::span<const FrameObserver::Interferer> interferers) {
+    const Transmission& sent = *flight.sent;
+    if (FrameObserver* const observer = frame_fates_.observer();
+        observer != nullptr && observer->explains(sent.sender.node, id_)) {
+        FrameObserver::Loss loss{.receiver = id_,
+                                 .power_w = flight.arrival.power_w,
+                                 .interference_w = fate == FrameFate::noise ? 0 : interference_w,
+                                 .interferers = {interferers.begin(), interferers.end()}};
+        if (radio_) {
+            loss.budget = links_of(channel_).power_budget(sent, radio_id_, flight.arrival.place);
+            loss.needed = radio_->model->needed_snir(*sent.mode, sent.psdu_bytes);
+            loss.noise_w = radio_->model->reception.noise_w;
+        }
+        observer->frame_lost(sent.id(), loss);
     }
     if (fate == FrameFate::interference) {
-        frame_fates_.book_interference(id_, flight.sent->label, interferers);
+        std::vector<NodeId> nodes;
+        for (const FrameObserver::Interferer& interferer : interferers) {
+            nodes.push_back(interferer.node);
+        }
+        frame_fates_.book_interference(id_, sent.label, nodes);
     }
 }
 

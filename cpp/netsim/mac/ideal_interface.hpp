@@ -27,6 +27,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "netsim/kernel/fingerprint.hpp"
@@ -117,6 +118,9 @@ private:
     void wait_for_channel();
     void access_channel();
     void transmit(std::size_t exchange);
+    // Adds what an observer gets of a frame that is below the receiver's sensitivity.
+    void add_missed(const Transmission& sent, const IdealInterface& receiver, const Position& place,
+                    std::vector<FrameObserver::Loss>& missed) const;
     Transmission transmission_of(const std::shared_ptr<const Frame>& frame, SimTime airtime);
     Reach reach_at(const IdealInterface& first_of_node, const Transmission& sent) const;
     void end_exchange(std::size_t number);
@@ -124,7 +128,7 @@ private:
     void add_stretch(std::vector<Stretch>& stretches, const Stretch& added) const;
     FrameFate fate_of(const Flight& flight);
     void book_loss(const Flight& flight, FrameFate fate, double interference_w,
-                   const std::vector<NodeId>& interferers);
+                   std::span<const FrameObserver::Interferer> interferers);
     double draw() { return RandomStream(seed_, stream_, Purpose::reception, drawn_++).uniform(); }
     // The interface whose own frames this one cannot hear: on the unit disk, those of a node share a channel.
     IdealInterface& shared_channel() { return radio_ ? *this : *channel_.interfaces[id_]; }

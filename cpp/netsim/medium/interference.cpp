@@ -145,6 +145,17 @@ const std::vector<NodeId>& InterferenceSum::interferers() {
     return interferers_;
 }
 
+double InterferenceSum::worst_w_of(NodeId node) {
+    const SimTime worst = worst_moment();
+    double sum_w = 0;
+    for (const Other& other : others_) {
+        if (other.transmission->sender.node == node && other.start <= worst && worst < other.end) {
+            sum_w += other.power_w;
+        }
+    }
+    return sum_w;
+}
+
 const std::vector<InterferenceStep>& InterferenceSum::steps() {
     steps_.assign(1, InterferenceStep{start_, 0});
     find_changes();

@@ -47,6 +47,8 @@ public:
     // the last of these. Of several equally bad moments, the start of the earliest transmission
     // counts. Empty without interference. Valid until the next call of begin or interferers.
     const std::vector<NodeId>& interferers();
+    // The power in W that this node contributes to the largest sum.
+    double worst_w_of(NodeId node);
     // The whole step function. The first step is at the start of the period, and each differs from
     // the one before. Valid until the next call of begin or steps.
     const std::vector<InterferenceStep>& steps();

@@ -102,6 +102,42 @@ double Links::reach_of_power_m(const Transmission& sent, const ReceiverGroup& gr
                        : std::numeric_limits<double>::infinity();
 }
 
+PowerBudget Links::power_budget(const Transmission& sent, RadioId radio, const Position& place) const {
+    PowerBudget budget{.sent_w = sent.power_w * sent.band.share_in(receiver(radio).band)};
+    if (!antennas_.all_isotropic()) {
+        budget.sender_antenna = antennas_.sender_gain(sent, place);
+        budget.receiver_antenna = antennas_.receiver_gain(sent, radio, place);
+    }
+    propagation_.explain(sent, interface(radio), place, distance(sent.origin, place), budget);
+    return budget;
+}
+
+std::optional<FrameObserver::Loss> Links::below_sensitivity(const Transmission& sent, RadioId radio,
+                                                            const Position& place) const {
+    const double received_w = arrival(sent, 1, radio, place).power_w;
+    const double sensitivity_w = receiver(radio).sensitivity_w;
+    if (received_w >= sensitivity_w) {
+        return std::nullopt;
+    }
+    return FrameObserver::Loss{.receiver = interface(radio).node,
+                               .power_w = received_w,
+                               .budget = power_budget(sent, radio, place),
+                               .needed = sensitivity_w};
+}
+
+bool Links::is_in_steady_reach(const Transmission& sent, RadioId radio, const Position& place) const {
+    const double best_w = sent.power_w * sent.band.share_in(receiver(radio).band) *
+                          antennas_.max_gain(sent.radio) * antennas_.max_gain(radio);
+    return best_w > 0 &&
+           distance(sent.origin, place) <=
+               propagation_.steady_reach_m(receiver(radio).sensitivity_w / best_w, sent.band.carrier_hz);
+}
+
+double Links::steady_reach_m(const Transmission& sent, const ReceiverGroup& group) const {
+    return propagation_.steady_reach_m(group.min_power_w / max_power_w(sent, group), sent.band.carrier_hz) *
+           (1 + rounding_margin);
+}
+
 double Links::ed_radius_m(const Transmission& sent, const ReceiverGroup& group) const {
     constexpr double more = 1 + 1e-8;  // for rounding
     if (!antennas_.all_isotropic()) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "netsim/config/medium_config.hpp"
@@ -20,6 +21,8 @@
 #include "netsim/propagation/antennas.hpp"
 #include "netsim/propagation/propagation.hpp"
 #include "netsim/propagation/transmission.hpp"
+#include "netsim/trace/frame_observer.hpp"
+#include "netsim/trace/power_budget.hpp"
 
 namespace netsim {
 
@@ -95,6 +98,20 @@ public:
         return Arrival{&sent,      start, start + sent.duration,
                        received_w, place, receiver(radio).can_lock_on(sent, received_w)};
     }
+
+    // The factors of that power.
+    PowerBudget power_budget(const Transmission& sent, RadioId radio, const Position& place) const;
+    // What an observer gets of a transmission that is below the radio's sensitivity; nothing if it
+    // reaches that. The radio must be able to decode it.
+    std::optional<FrameObserver::Loss> below_sensitivity(const Transmission& sent, RadioId radio,
+                                                         const Position& place) const;
+    // Whether the power would reach the radio's sensitivity if only distance took some of it: with
+    // both antennas at their best, and without ground, obstacles, shadowing and fading.
+    bool is_in_steady_reach(const Transmission& sent, RadioId radio, const Position& place) const;
+    // In m. Farther away, no member of the group is in steady reach.
+    double steady_reach_m(const Transmission& sent, const ReceiverGroup& group) const;
+    // Whether a radio in steady reach always has the power of its distance.
+    bool is_power_law() const { return antennas_.all_isotropic() && propagation_.is_power_law(); }
 
     bool all_isotropic() const { return antennas_.all_isotropic(); }
     bool is_random() const { return propagation_.is_random(); }

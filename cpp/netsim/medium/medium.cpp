@@ -77,10 +77,46 @@ void Medium::notify_all(ActiveTransmission& entry) {
     fates_.book_transmission(sent.label, addressed, overheard);
 }
 
-void Medium::notify_observer(const Transmission& sent, CopyCount copies) const {
+void Medium::notify_observer(const Transmission& sent, CopyCount copies) {
     if (FrameObserver* const observer = fates_.observer(); observer != nullptr) {
-        observer->frame_begins(sent, copies.made - copies.too_weak, copies.too_weak);
+        std::vector<FrameObserver::Loss> missed;
+        if (copies.too_weak > 0) {
+            missed = missed_receptions(sent, *observer);
+        }
+        observer->frame_begins(sent, copies.made - copies.too_weak, copies.too_weak, missed);
     }
+}
+
+std::vector<FrameObserver::Loss> Medium::missed_receptions(const Transmission& sent,
+                                                           const FrameObserver& observer) {
+    std::vector<FrameObserver::Loss> missed;
+    const auto add_if_missed = [&](RadioId radio, const Position& place) {
+        if (observer.explains(sent.sender.node, links_.interface(radio).node)) {
+            if (auto loss = links_.below_sensitivity(sent, radio, place)) {
+                missed.push_back(std::move(*loss));
+            }
+        }
+    };
+    const RadioId addressee = links_.addressee_of(sent);
+    if (addressee >= 0) {
+        add_if_missed(addressee, links_.position(addressee, sent.start));
+    }
+    if (links_.is_power_law()) {
+        return missed;
+    }
+    for (ReceiverGroup& group : links_.groups()) {
+        if (!group.can_decode(sent)) {
+            continue;
+        }
+        const double reach_m = links_.steady_reach_m(sent, group);
+        group.members.prepare(sent.start, links_.displacement(), reach_m);
+        for (const auto& [place, radio] : group.members.near(sent.origin, reach_m)) {
+            if (radio != sent.radio && radio != addressee && links_.is_in_steady_reach(sent, radio, place)) {
+                add_if_missed(radio, place);
+            }
+        }
+    }
+    return missed;
 }
 
 void Medium::find_all_receivers(ActiveTransmission& entry) {

@@ -73,6 +73,11 @@ public:
     // not be in the future. Call it before or in arrival_ended. Valid until the next call.
     InterferenceSum& interference_with(RadioId receiver, const Arrival& arrival, SimTime start, SimTime end);
 
+    // What became of the power of that arrival.
+    PowerBudget power_budget(RadioId receiver, const Arrival& arrival) const {
+        return links_.power_budget(*arrival.transmission, receiver, arrival.place);
+    }
+
     // An upper bound in W for that interference over the whole arrival, which must reach the
     // receiver's sensitivity. O(1). Infinite if no bound is known.
     double max_interference_w(const Arrival& arrival) const { return arrival.active->max_interference_w; }
@@ -104,7 +109,10 @@ private:
     // the transmission, those in `beyond_` only together with others. Prefetches the state of each.
     void partition(std::span<const NeighborSearch::Neighbor> near, const Transmission& sent,
                    double noticed_m);
-    void notify_observer(const Transmission& sent, CopyCount copies) const;
+    void notify_observer(const Transmission& sent, CopyCount copies);
+    // The receptions below the sensitivity that an observer gets (FrameObserver::frame_begins).
+    std::vector<FrameObserver::Loss> missed_receptions(const Transmission& sent,
+                                                       const FrameObserver& observer);
     void book_copies(const ActiveTransmission& entry, CopyCount copies);
     void prefetch(RadioId radio, FrameKind kind) const;
     void schedule_arrivals(ActiveTransmission& entry);

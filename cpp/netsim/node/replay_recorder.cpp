@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <type_traits>
 
 #include "netsim/phy/modes.hpp"
 #include "netsim/propagation/transmission.hpp"
+#include "netsim/units.hpp"
 
 namespace netsim {
 
@@ -19,26 +21,34 @@ constexpr std::size_t max_rows = 1'000'000;
 constexpr SimTime density_bin = SimTime::from_us(250'000);
 constexpr SimTime sampling_interval = SimTime::from_us(200'000);
 constexpr std::size_t max_causes = 10'000;
+constexpr std::size_t max_missed = 50;           // of a frame
+constexpr std::size_t max_bytes_of_text = 2000;  // of a message
+constexpr std::size_t max_text_bytes = 500'000;  // of a chunk
 
-// BELOW_SENSITIVITY and NO_POWER in tables.py.
+// BELOW_SENSITIVITY, TEXT_LEFT_OUT and NO_POWER in tables.py.
 constexpr std::uint8_t no_longer_noticed = 255;
+constexpr std::uint32_t text_left_out = 0xFFFFFFFF;
 constexpr std::int16_t no_power = std::numeric_limits<std::int16_t>::min();
 
 constexpr std::uint64_t ns(SimTime time) {
     return static_cast<std::uint64_t>(std::max(time, SimTime{}).ps() / 1000);
 }
 
-// In 0.01 dBm.
-std::int16_t cdbm(double power_w) {
-    if (power_w <= 0) {
-        return no_power;
-    }
-    return static_cast<std::int16_t>(
-        std::clamp(std::round(1000 * std::log10(1000 * power_w)), -32767.0, 32767.0));
+// In 0.01 dB; a ratio of 0 is the smallest value.
+std::int16_t cdb(double ratio) {
+    return static_cast<std::int16_t>(std::clamp(std::round(100 * db_from_ratio(ratio)), -32767.0, 32767.0));
 }
 
+// In 0.01 dBm. Powers too small for that are none.
+std::int16_t cdbm(double power_w) {
+    constexpr double least_w = 1e-33;
+    constexpr double w_per_mw = 1e-3;
+    return power_w < least_w ? no_power : cdb(power_w / w_per_mw);
+}
+
+// Receptions below the sensitivity are recorded only if they are losses.
 bool is_lost(FrameFate fate) {
-    return fate != FrameFate::delivered && fate != FrameFate::below_sensitivity && fate != FrameFate::in_air;
+    return fate != FrameFate::delivered && fate != FrameFate::in_air;
 }
 
 // A column of a table: one member of each row.
@@ -107,6 +117,26 @@ std::uint32_t ReplayRecorder::string(const std::string& text) {
     return entry->second;
 }
 
+std::uint32_t ReplayRecorder::text_row(const std::string& message) {
+    const auto known = text_ids_.find(message);
+    if (known != text_ids_.end()) {
+        return known->second;
+    }
+    if (text_bytes_.size() >= max_text_bytes) {
+        return text_left_out;
+    }
+    std::size_t size = std::min(message.size(), max_bytes_of_text);
+    constexpr unsigned continues = 0x80;  // a byte within a character of UTF-8
+    constexpr unsigned mask = 0xC0;
+    while (size > 0 && size < message.size() &&
+           (static_cast<unsigned char>(message[size]) & mask) == continues) {
+        --size;
+    }
+    text_bytes_.append(message, 0, size);
+    texts_.push_back({static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(message.size())});
+    return text_ids_.emplace(message, static_cast<std::uint32_t>(texts_.size())).first->second;
+}
+
 void ReplayRecorder::timer_due(NodeId node, const std::string& timer) {
     event(node, EventKind::timer, timer);
     timer_ = &timer;
@@ -171,7 +201,7 @@ void ReplayRecorder::write_leg(NodeId node) {
 }
 
 void ReplayRecorder::frame_begins(const Transmission& transmission, std::uint64_t noticed,
-                                  std::uint64_t too_weak) {
+                                  std::uint64_t too_weak, std::span<const Loss> missed) {
     if (open_.empty()) {
         first_open_ = transmission.id();
     }
@@ -188,15 +218,27 @@ void ReplayRecorder::frame_begins(const Transmission& transmission, std::uint64_
                  .bitrate_bps = transmission.mode == nullptr
                                     ? 0
                                     : static_cast<std::uint32_t>(transmission.mode->bitrate_bps),
+                 .power_cdbm = cdbm(transmission.power_w),
                  .cause = content.cause,
                  .receptions = static_cast<std::uint32_t>(noticed),
                  .unnoticed = static_cast<std::uint32_t>(too_weak)};
+    frame.message = content.payload;
     if (transmission.psdu_bytes == 0 && content.payload) {  // on a medium without frames
         frame.row.bytes = static_cast<std::uint32_t>(content.payload->size());
     }
     frame.left = noticed;
     frame.is_recorded = nodes_[transmission.sender.node].is_recorded;
     frame.receptions.reserve(noticed);
+    std::vector<const Loss*> strongest;
+    for (const Loss& loss : missed) {
+        strongest.push_back(&loss);
+    }
+    std::ranges::stable_sort(strongest, std::ranges::greater{}, &Loss::power_w);
+    strongest.resize(std::min(strongest.size(), max_missed));
+    for (const Loss* const loss : strongest) {
+        frame.receptions.push_back(reception_of(loss->receiver, FrameFate::below_sensitivity));
+        add_loss(frame, *loss);
+    }
     write_complete_frames();
 }
 
@@ -210,15 +252,34 @@ void ReplayRecorder::reception_ends(FrameNumber number, NodeId receiver, FrameFa
     }
 }
 
-void ReplayRecorder::frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) {
-    OpenFrame& frame = open(number);
-    if (!frame.is_recorded && !nodes_[receiver].is_recorded) {
-        return;
+void ReplayRecorder::frame_lost(FrameNumber number, const Loss& loss) {
+    add_loss(open(number), loss);
+}
+
+void ReplayRecorder::add_loss(OpenFrame& frame, const Loss& loss) {
+    const auto receiver = static_cast<std::uint32_t>(loss.receiver);
+    const PowerBudget& budget = loss.budget;
+    const std::int16_t power = cdbm(loss.power_w);
+    frame.losses.push_back({.receiver = receiver,
+                            .power_cdbm = power,
+                            .needed_cdb = loss.noise_w > 0 ? cdb(loss.needed) : cdbm(loss.needed),
+                            .noise_cdbm = cdbm(loss.noise_w),
+                            .interference_cdbm = cdbm(loss.interference_w),
+                            .distance_cdb = power == no_power ? cdb(budget.distance) : std::int16_t{0},
+                            .sender_antenna_cdb = cdb(budget.sender_antenna),
+                            .receiver_antenna_cdb = cdb(budget.receiver_antenna),
+                            .ground_cdb = cdb(budget.ground),
+                            .shadowing_cdb = cdb(budget.shadowing),
+                            .fading_cdb = cdb(budget.fading)});
+    for (const PowerBudget::Obstacle& obstacle : budget.obstacles) {
+        frame.obstructions.push_back({.receiver = receiver,
+                                      .obstacle = static_cast<std::uint32_t>(obstacle.index),
+                                      .gain_cdb = cdb(obstacle.gain)});
     }
-    const auto lost_by = static_cast<std::uint32_t>(receiver);
-    frame.losses.push_back({0, lost_by, cdbm(loss.power_w), cdbm(loss.interference_w)});
-    for (const NodeId interferer : loss.interferers) {
-        frame.interferers.push_back({0, lost_by, static_cast<std::uint32_t>(interferer)});
+    for (const Interferer& interferer : loss.interferers) {
+        frame.interferers.push_back({.receiver = receiver,
+                                     .node = static_cast<std::uint32_t>(interferer.node),
+                                     .power_cdbm = cdbm(interferer.power_w)});
     }
 }
 
@@ -243,11 +304,16 @@ void ReplayRecorder::write(OpenFrame& frame) {
         loss.frame = number;
         losses_.push_back(loss);
     }
+    for (ObstructionRow& obstruction : frame.obstructions) {
+        obstruction.frame = number;
+        obstructions_.push_back(obstruction);
+    }
     for (InterfererRow& interferer : frame.interferers) {
         interferer.frame = number;
         interferers_.push_back(interferer);
     }
     frame.row.cause = string(causes_[frame.row.cause]);
+    frame.row.text = frame.message == nullptr ? 0 : text_row(*frame.message);
     frames_.push_back(frame.row);
 }
 
@@ -317,7 +383,8 @@ void ReplayRecorder::close_chunk() {
           column("interface", frames_, &FrameRow::interface), column("kind", frames_, &FrameRow::kind),
           column("retry", frames_, &FrameRow::retry), column("destination", frames_, &FrameRow::destination),
           column("bytes", frames_, &FrameRow::bytes), column("bitrate_bps", frames_, &FrameRow::bitrate_bps),
-          column("cause", frames_, &FrameRow::cause), column("receptions", frames_, &FrameRow::receptions),
+          column("power_cdbm", frames_, &FrameRow::power_cdbm), column("cause", frames_, &FrameRow::cause),
+          column("text", frames_, &FrameRow::text), column("receptions", frames_, &FrameRow::receptions),
           column("unnoticed", frames_, &FrameRow::unnoticed)}},
         {"receptions",
          {column("frame", receptions_, &ReceptionRow::frame, true),
@@ -326,11 +393,25 @@ void ReplayRecorder::close_chunk() {
         {"losses",
          {column("frame", losses_, &LossRow::frame, true), column("receiver", losses_, &LossRow::receiver),
           column("power_cdbm", losses_, &LossRow::power_cdbm),
-          column("interference_cdbm", losses_, &LossRow::interference_cdbm)}},
+          column("needed_cdb", losses_, &LossRow::needed_cdb),
+          column("noise_cdbm", losses_, &LossRow::noise_cdbm),
+          column("interference_cdbm", losses_, &LossRow::interference_cdbm),
+          column("distance_cdb", losses_, &LossRow::distance_cdb),
+          column("sender_antenna_cdb", losses_, &LossRow::sender_antenna_cdb),
+          column("receiver_antenna_cdb", losses_, &LossRow::receiver_antenna_cdb),
+          column("ground_cdb", losses_, &LossRow::ground_cdb),
+          column("shadowing_cdb", losses_, &LossRow::shadowing_cdb),
+          column("fading_cdb", losses_, &LossRow::fading_cdb)}},
+        {"obstructions",
+         {column("frame", obstructions_, &ObstructionRow::frame, true),
+          column("receiver", obstructions_, &ObstructionRow::receiver),
+          column("obstacle", obstructions_, &ObstructionRow::obstacle),
+          column("gain_cdb", obstructions_, &ObstructionRow::gain_cdb)}},
         {"interferers",
          {column("frame", interferers_, &InterfererRow::frame, true),
           column("receiver", interferers_, &InterfererRow::receiver),
-          column("node", interferers_, &InterfererRow::node)}},
+          column("node", interferers_, &InterfererRow::node),
+          column("power_cdbm", interferers_, &InterfererRow::power_cdbm)}},
         {"legs",
          {column("time_ns", legs_, &LegRow::time), column("duration_ns", legs_, &LegRow::duration),
           column("node", legs_, &LegRow::node),
@@ -347,6 +428,8 @@ void ReplayRecorder::close_chunk() {
         {"events",
          {column("time_ns", events_, &EventRow::time, true), column("node", events_, &EventRow::node),
           column("kind", events_, &EventRow::kind), column("text", events_, &EventRow::text)}},
+        {"texts", {column("recorded", texts_, &TextRow::recorded), column("bytes", texts_, &TextRow::bytes)}},
+        {"text_bytes", {{"byte", std::exchange(text_bytes_, {})}}},
     };
     density_.bin = density_bin;
     chunk.density = std::exchange(density_, {});
@@ -363,10 +446,13 @@ void ReplayRecorder::close_chunk() {
     frames_.clear();
     receptions_.clear();
     losses_.clear();
+    obstructions_.clear();
     interferers_.clear();
     legs_.clear();
     variables_.clear();
     events_.clear();
+    texts_.clear();
+    text_ids_.clear();
     for (std::size_t id = 0; id < nodes_.size(); ++id) {
         for (std::vector<Reception>& heard : nodes_[id].heard_by) {
             heard.clear();

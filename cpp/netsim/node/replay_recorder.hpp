@@ -8,12 +8,17 @@
 // A frame is written when its last reception has ended and all earlier frames are written. Only
 // receptions that differ from those of the sender's last frame are written: most receivers decode
 // frame after frame.
+//
+// Receivers that a frame did not reach are counted. Of those within its steady reach
+// (Links::is_in_steady_reach), the strongest are written: there, something else than distance took
+// the power.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -88,10 +93,13 @@ public:
     void variable_set(NodeId node, std::string_view name, const TrackedValue& value);
     void event(NodeId node, EventKind kind, std::string_view text);
 
-    void frame_begins(const Transmission& transmission, std::uint64_t noticed,
-                      std::uint64_t too_weak) override;
+    bool explains(NodeId sender, NodeId receiver) const override {
+        return nodes_[sender].is_recorded || nodes_[receiver].is_recorded;
+    }
+    void frame_begins(const Transmission& transmission, std::uint64_t noticed, std::uint64_t too_weak,
+                      std::span<const Loss> missed) override;
     void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) override;
-    void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) override;
+    void frame_lost(FrameNumber number, const Loss& loss) override;
 
     // Closes the chunk now. Frames with receptions in progress go to the next chunk.
     void close_chunk();
@@ -112,7 +120,9 @@ private:
         std::uint32_t destination = 0;
         std::uint32_t bytes = 0;
         std::uint32_t bitrate_bps = 0;
+        std::int16_t power_cdbm = 0;
         std::uint32_t cause = 0;
+        std::uint32_t text = 0;
         std::uint32_t receptions = 0;
         std::uint32_t unnoticed = 0;
     };
@@ -125,12 +135,27 @@ private:
         std::uint32_t frame = 0;
         std::uint32_t receiver = 0;
         std::int16_t power_cdbm = 0;
+        std::int16_t needed_cdb = 0;
+        std::int16_t noise_cdbm = 0;
         std::int16_t interference_cdbm = 0;
+        std::int16_t distance_cdb = 0;
+        std::int16_t sender_antenna_cdb = 0;
+        std::int16_t receiver_antenna_cdb = 0;
+        std::int16_t ground_cdb = 0;
+        std::int16_t shadowing_cdb = 0;
+        std::int16_t fading_cdb = 0;
+    };
+    struct ObstructionRow {
+        std::uint32_t frame = 0;
+        std::uint32_t receiver = 0;
+        std::uint32_t obstacle = 0;
+        std::int16_t gain_cdb = 0;
     };
     struct InterfererRow {
         std::uint32_t frame = 0;
         std::uint32_t receiver = 0;
         std::uint32_t node = 0;
+        std::int16_t power_cdbm = 0;
     };
     struct LegRow {
         std::uint64_t time = 0;
@@ -153,6 +178,11 @@ private:
         std::uint32_t text = 0;
     };
 
+    struct TextRow {
+        std::uint32_t recorded = 0;  // octets
+        std::uint32_t bytes = 0;     // of the message
+    };
+
     // A reception in 32 bits, which sorts by receiver.
     using Reception = std::uint32_t;
     static Reception reception_of(NodeId receiver, FrameFate fate) {
@@ -162,10 +192,12 @@ private:
     // A frame that is still on the air, or that waits for an earlier one.
     struct OpenFrame {
         FrameRow row;
+        Payload message;         // of data frames
         std::uint64_t left = 0;  // receptions that have not ended
         bool is_recorded = false;
         std::vector<Reception> receptions;
         std::vector<LossRow> losses;
+        std::vector<ObstructionRow> obstructions;
         std::vector<InterfererRow> interferers;
     };
     struct RecordedNode {
@@ -183,11 +215,14 @@ private:
     void begin_row();
     void write_complete_frames();
     void write(OpenFrame& frame);
+    void add_loss(OpenFrame& frame, const Loss& loss);
     void write_changes(OpenFrame& frame, std::uint32_t number);
     void write_leg(NodeId node);
     void count(const OpenFrame& frame);
     CauseId cause_of(const std::string& text);
     std::uint32_t string(const std::string& text);
+    // The row of a message in the table of texts; `text_left_out` if there are too many.
+    std::uint32_t text_row(const std::string& message);
     OpenFrame& open(FrameNumber frame) { return open_[static_cast<std::size_t>(frame - first_open_)]; }
 
     const Simulator& simulator_;
@@ -203,12 +238,16 @@ private:
     std::vector<FrameRow> frames_;
     std::vector<ReceptionRow> receptions_;
     std::vector<LossRow> losses_;
+    std::vector<ObstructionRow> obstructions_;
     std::vector<InterfererRow> interferers_;
     std::vector<LegRow> legs_;
     std::vector<VariableRow> variables_;
     std::vector<EventRow> events_;
     std::vector<std::string> strings_;
     std::unordered_map<std::string, std::uint32_t> string_ids_;
+    std::vector<TextRow> texts_;
+    std::string text_bytes_;
+    std::unordered_map<std::string, std::uint32_t> text_ids_;
     ReplayChunk::Density density_;
     std::vector<ReplayChunk> chunks_;
 };

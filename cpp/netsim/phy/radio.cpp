@@ -285,13 +285,20 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 void Radio::book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference) {
     const Transmission& lost = *arrival.transmission;
     FrameFates& fates = medium().fates();
-    if (FrameObserver* const observer = fates.observer(); observer != nullptr) {
-        FrameObserver::Loss loss{.power_w = arrival.power_w};
+    if (FrameObserver* const observer = fates.observer();
+        observer != nullptr && observer->explains(lost.sender.node, node())) {
+        FrameObserver::Loss loss{.receiver = node(),
+                                 .power_w = arrival.power_w,
+                                 .budget = medium().power_budget(id_, arrival),
+                                 .needed = model_.needed_snir(*lost.mode, lost.psdu_bytes),
+                                 .noise_w = model_.reception.noise_w};
         if (interference != nullptr) {
             loss.interference_w = interference->worst_w();
-            loss.interferers = interference->interferers();
+            for (const NodeId interferer : interference->interferers()) {
+                loss.interferers.push_back({interferer, interference->worst_w_of(interferer)});
+            }
         }
-        observer->frame_lost(lost.id(), node(), loss);
+        observer->frame_lost(lost.id(), loss);
     }
     if (interference != nullptr) {
         fates.book_interference(node(), lost.label, interference->interferers());

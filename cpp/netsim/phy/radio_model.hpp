@@ -6,7 +6,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "netsim/config/radio_config.hpp"
 #include "netsim/medium/medium.hpp"
@@ -24,6 +26,10 @@ public:
     // `seed`: of the run. Throws ConfigError for an unknown error model or an invalid file.
     RadioModel(const RadioConfig& config, Medium& medium, std::uint64_t seed);
 
+    // The SNIR, a ratio, with which half of the frames of that length survive; at most 100
+    // dB.
+    double needed_snir(const Mode& mode, int psdu_bytes) const;
+
     Medium& medium;
     std::uint64_t seed;
     Band band;
@@ -38,6 +44,7 @@ public:
 
 private:
     std::shared_ptr<const ErrorModel> error_model_;
+    mutable std::map<std::pair<const Mode*, int>, double> needed_snir_;  // results so far
 };
 
 }  // namespace netsim

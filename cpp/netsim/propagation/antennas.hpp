@@ -25,8 +25,13 @@ public:
     // The product of the sender's gain towards the receiver, at `place` when the transmission
     // starts, and the receiver's gain towards the sender, with their orientations at that time.
     double gain(const Transmission& sent, RadioId receiver, const Position& place) const {
-        const Position way = place - sent.origin;
-        return gain_towards(way, sent.radio, sent.start) * gain_towards(way * -1, receiver, sent.start);
+        return sender_gain(sent, place) * receiver_gain(sent, receiver, place);
+    }
+    double sender_gain(const Transmission& sent, const Position& place) const {
+        return gain_towards(place - sent.origin, sent.radio, sent.start);
+    }
+    double receiver_gain(const Transmission& sent, RadioId receiver, const Position& place) const {
+        return gain_towards((place - sent.origin) * -1, receiver, sent.start);
     }
 
 private:

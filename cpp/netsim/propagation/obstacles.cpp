@@ -58,6 +58,7 @@ Obstacles::Obstacles(const MediumConfig& config)
     }
     configs_ = config.obstacles;
     for (const ObstacleConfig& obstacle : configs_) {
+        indices_.push_back(bodies_.size());
         bodies_.emplace_back(obstacle.rings, obstacle.base_m, obstacle.top_m);
     }
     build(0, bodies_.size());
@@ -96,12 +97,15 @@ void Obstacles::build(std::size_t first, std::size_t count) {
         });
         std::vector<Prism> bodies;
         std::vector<ObstacleConfig> configs;
+        std::vector<std::size_t> indices;
         for (const std::size_t body : order) {
             bodies.push_back(std::move(bodies_[body]));
             configs.push_back(std::move(configs_[body]));
+            indices.push_back(indices_[body]);
         }
         std::move(bodies.begin(), bodies.end(), bodies_.begin() + static_cast<std::ptrdiff_t>(first));
         std::move(configs.begin(), configs.end(), configs_.begin() + static_cast<std::ptrdiff_t>(first));
+        std::ranges::copy(indices, indices_.begin() + static_cast<std::ptrdiff_t>(first));
         build(first, count / 2);
         build(first + count / 2, count - count / 2);
     }
@@ -121,16 +125,16 @@ const std::vector<Material>& Obstacles::materials_at(double carrier_hz) const {
     return added.materials;
 }
 
-double Obstacles::gain(const Position& a, const Position& b, double carrier_hz) const {
+template <typename Visit>
+void Obstacles::visit(const Position& a, const Position& b, double carrier_hz, Visit visit) const {
     if (bodies_.empty()) {
-        return 1;
+        return;
     }
     const bool forward = is_before(a, b);
     const Position& from = forward ? a : b;
     const Position& to = forward ? b : a;
     const std::vector<Material>& materials = materials_at(carrier_hz);
     const Probe probe(from, to);
-    double gain = 1;
     for (std::size_t i = 0; i < boxes_.size();) {
         const Box& box = boxes_[i];
         if (!probe.may_meet(box.lowest, box.highest)) {
@@ -139,14 +143,33 @@ double Obstacles::gain(const Position& a, const Position& b, double carrier_hz) 
         }
         for (std::size_t body = box.first; body < box.first + box.count; ++body) {
             bodies_[body].cross(from, to, crossing_);
-            gain *= gain_through(body, materials);
-            if (gain == 0) {
-                return 0;
+            if (!visit(body, gain_through(body, materials))) {
+                return;
             }
         }
         ++i;
     }
+}
+
+double Obstacles::gain(const Position& a, const Position& b, double carrier_hz) const {
+    double gain = 1;
+    visit(a, b, carrier_hz, [&gain](std::size_t /*body*/, double of_body) {
+        gain *= of_body;
+        return gain > 0;
+    });
     return gain;
+}
+
+std::vector<PowerBudget::Obstacle> Obstacles::crossed(const Position& a, const Position& b,
+                                                      double carrier_hz) const {
+    std::vector<PowerBudget::Obstacle> crossed;
+    visit(a, b, carrier_hz, [&](std::size_t body, double gain) {
+        if (!crossing_.stretches().empty()) {
+            crossed.push_back({indices_[body], gain});
+        }
+        return true;
+    });
+    return crossed;
 }
 
 double Obstacles::gain_through(std::size_t body, const std::vector<Material>& materials) const {

@@ -14,6 +14,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/geometry/prism.hpp"
 #include "netsim/propagation/material.hpp"
+#include "netsim/trace/power_budget.hpp"
 
 namespace netsim {
 
@@ -26,6 +27,8 @@ public:
 
     // The ratio of the power that is left between `a` and `b`, 0 … 1.
     double gain(const Position& a, const Position& b, double carrier_hz) const;
+    // The obstacles on that line, with the gain of each.
+    std::vector<PowerBudget::Obstacle> crossed(const Position& a, const Position& b, double carrier_hz) const;
 
 private:
     // The bounding box of a subtree. Its first child follows it; the subtree ends before `next`.
@@ -44,12 +47,16 @@ private:
     void build(std::size_t first, std::size_t count);
     Box box_around(std::size_t first, std::size_t count) const;
     const std::vector<Material>& materials_at(double carrier_hz) const;
+    // Calls `visit` with the index and the gain of each body that the line may meet, until it returns false.
+    template <typename Visit>
+    void visit(const Position& a, const Position& b, double carrier_hz, Visit visit) const;
     double gain_through(std::size_t body, const std::vector<Material>& materials) const;
 
     bool blocks_all_ = false;
     bool enable_dielectric_loss_ = true;
     bool enable_reflection_loss_ = true;
     std::vector<ObstacleConfig> configs_;  // of each body
+    std::vector<std::size_t> indices_;     // of each body, in MediumConfig::obstacles
     std::vector<Prism> bodies_;
     std::vector<Box> boxes_;
     mutable std::vector<MaterialsAt> materials_;  // for each carrier so far

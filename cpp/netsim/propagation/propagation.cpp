@@ -27,4 +27,17 @@ double Propagation::other_gain(const Transmission& sent, InterfaceId receiver, c
     return obstacles_.empty() ? gain : gain * obstacles_.gain(sent.origin, place, sent.band.carrier_hz);
 }
 
+void Propagation::explain(const Transmission& sent, InterfaceId receiver, const Position& place,
+                          double distance_m, PowerBudget& budget) const {
+    const double carrier_hz = sent.band.carrier_hz;
+    const auto factor = [&](const Fading& fading) {
+        return fading.gain(sent.sender.stream(), receiver.stream(), sent.start, sent.id());
+    };
+    budget.distance = direct_gain(distance_m, carrier_hz);
+    budget.ground = path_gain(sent.origin, place, distance_m, carrier_hz) / budget.distance;
+    budget.shadowing = factor(shadowing_);
+    budget.fading = factor(fading_);
+    budget.obstacles = obstacles_.crossed(sent.origin, place, carrier_hz);
+}
+
 }  // namespace netsim

@@ -14,6 +14,7 @@
 #include "netsim/propagation/path_loss.hpp"
 #include "netsim/propagation/transmission.hpp"
 #include "netsim/propagation/two_ray.hpp"
+#include "netsim/trace/power_budget.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -34,6 +35,11 @@ public:
         return other_gain(sent, receiver, place, distance_m, least);
     }
 
+    // Fills in the factors of that gain, all but those of the antennas. Their product may differ from
+    // it by rounding.
+    void explain(const Transmission& sent, InterfaceId receiver, const Position& place, double distance_m,
+                 PowerBudget& budget) const;
+
     // The distance in m beyond which no gain reaches `gain`, up to rounding: a search radius needs
     // a margin. 0 if no gain reaches it at all, infinite if `gain` is 0.
     double reach_m(double gain, double carrier_hz) const {
@@ -43,6 +49,12 @@ public:
     // The distance in m up to which every gain is at least `gain`, up to rounding. 0 if unknown.
     double sure_reach_m(double gain, double carrier_hz) const {
         return is_power_law_ && path_loss_.is_one_law() ? path_loss_.reach_m(gain, carrier_hz) : 0;
+    }
+
+    // The distance in m beyond which that gain is not reached without shadowing and fading, up to
+    // rounding.
+    double steady_reach_m(double gain, double carrier_hz) const {
+        return path_loss_.reach_m(gain, carrier_hz);
     }
 
     // An upper bound for gains at `distance_m` and beyond, up to rounding.
@@ -57,10 +69,17 @@ public:
     }
     const Fading& shadowing() const { return shadowing_; }
     const Fading& fading() const { return fading_; }
+    // Whether distance alone decides the gain.
+    bool is_power_law() const { return is_power_law_; }
     // Whether gains are drawn from a distribution.
     bool is_random() const { return !(shadowing_.is_none() && fading_.is_none()); }
 
 private:
+    // The path loss of the direct ray.
+    double direct_gain(double distance_m, double carrier_hz) const {
+        return two_ray_.is_none() ? path_loss_.gain(distance_m, carrier_hz)
+                                  : two_ray_.direct_gain(distance_m, carrier_hz);
+    }
     double other_gain(const Transmission& sent, InterfaceId receiver, const Position& place,
                       double distance_m, double least) const;
 

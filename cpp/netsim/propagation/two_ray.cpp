@@ -29,12 +29,20 @@ double TwoRay::gain(const Position& a, const Position& b, double distance_m, dou
         const double root = heights_m2 / squared_m2;
         return std::min(root * root, 1.0);
     }
-    const double at_one_metre = wavelength_m * wavelength_m / (16 * pi * pi);
     if (kind_ == Kind::ground_reflection) {
-        const double divisor = alpha_ == 2 ? squared_m2 : std::pow(distance_m, alpha_);
-        return std::min(at_one_metre / divisor, 1.0);
+        return direct_gain(distance_m, carrier_hz);
     }
+    const double at_one_metre = wavelength_m * wavelength_m / (16 * pi * pi);
     return std::min(at_one_metre / squared_m2 * interference_factor(a, b, distance_m, wavelength_m), 1.0);
+}
+
+double TwoRay::direct_gain(double distance_m, double carrier_hz) const {
+    constexpr double pi = std::numbers::pi;
+    const double wavelength_m = speed_of_light_mps / carrier_hz;
+    const double at_one_metre = wavelength_m * wavelength_m / (16 * pi * pi);
+    const double exponent = kind_ == Kind::ground_reflection ? alpha_ : 2;
+    const double divisor = exponent == 2 ? distance_m * distance_m : std::pow(distance_m, exponent);
+    return std::min(at_one_metre / divisor, 1.0);
 }
 
 double TwoRay::interference_factor(const Position& a, const Position& b, double distance_m,

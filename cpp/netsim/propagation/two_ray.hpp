@@ -27,6 +27,8 @@ public:
     // Received over transmitted power between isotropic antennas, at most 1; the same in both
     // directions. `distance_m`: between the positions. Not for is_none().
     double gain(const Position& a, const Position& b, double distance_m, double carrier_hz) const;
+    // The same of the direct ray alone.
+    double direct_gain(double distance_m, double carrier_hz) const;
 
 private:
     enum class Kind { none, ground_reflection, interference };

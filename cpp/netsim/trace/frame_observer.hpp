@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "netsim/node_id.hpp"
 #include "netsim/trace/frame_label.hpp"
+#include "netsim/trace/power_budget.hpp"
 
 namespace netsim {
 
@@ -17,20 +19,34 @@ class FrameObserver {
 public:
     virtual ~FrameObserver() = default;
 
-    // The loss of a frame that a receiver was locked on to.
+    struct Interferer {
+        NodeId node = 0;
+        double power_w = 0;  // at the receiver
+    };
+    // Why a receiver lost a frame.
     struct Loss {
+        NodeId receiver = 0;
         double power_w = 0;
-        double interference_w = 0;              // 0: lost to noise
-        std::span<const NodeId> interferers{};  // strongest first
+        PowerBudget budget{};  // of that power; sent_w is 0 on a medium without powers
+        // Of a frame that was too weak to be noticed: the receiver's sensitivity in W. Otherwise the
+        // SNIR, a ratio, with which half of such frames survive.
+        double needed = 0;
+        // Both are 0 if the frame was not noticed.
+        double noise_w = 0;
+        double interference_w = 0;              // 0 if the frame was lost to noise
+        std::vector<Interferer> interferers{};  // strongest first
     };
 
+    // Whether losses between these nodes are of interest. For others, none need be computed.
+    virtual bool explains(NodeId sender, NodeId receiver) const = 0;
     // A frame starts. For `noticed` of its receptions, reception_ends will be called. `too_weak` are
-    // below the sensitivity.
-    virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed,
-                              std::uint64_t too_weak) = 0;
+    // below the sensitivity. `missed` are those of them that distance alone does not explain, and
+    // that of the destination.
+    virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed, std::uint64_t too_weak,
+                              std::span<const Loss> missed) = 0;
     virtual void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) = 0;
     // Called before reception_ends, for a reception that ends with the frame and is lost.
-    virtual void frame_lost(FrameNumber number, NodeId receiver, const Loss& loss) = 0;
+    virtual void frame_lost(FrameNumber number, const Loss& loss) = 0;
 };
 
 }  // namespace netsim

@@ -28,6 +28,7 @@ LOST_TO_OTHERS = (
 
 _LOST_TO_OTHERS = {OUTCOMES.index(name) for name in LOST_TO_OTHERS}
 _IN_AIR = OUTCOMES.index("in_air")
+_TOO_WEAK = OUTCOMES.index("below_sensitivity")
 _TIMER = "timer "
 _ANSWER = "packet"
 _DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
@@ -244,7 +245,8 @@ class _Run:
             for start, duration in zip(self._frames["time_ns"], self._frames["duration_ns"], strict=True)
         ]
         self._longest = max(self._frames["duration_ns"], default=0)
-        self.receptions = list(zip(*replay.table("receptions").values(), strict=True))
+        rows = zip(*replay.table("receptions").values(), strict=True)
+        self.receptions = [row for row in rows if row[2] != _TOO_WEAK]
         self._heard = {(frame, receiver) for frame, receiver, _ in self.receptions}
         self._interferers = _interferers(replay)
         self._timers = _timers(replay)
@@ -381,7 +383,9 @@ class _Run:
 
 def _interferers(replay: Replay) -> dict[tuple[int, int], set[int]]:
     found: defaultdict[tuple[int, int], set[int]] = defaultdict(set)
-    for frame, receiver, node in zip(*replay.table("interferers").values(), strict=True):
+    table = replay.table("interferers")
+    columns = (table[column] for column in ("frame", "receiver", "node"))
+    for frame, receiver, node in zip(*columns, strict=True):
         found[frame, receiver].add(node)
     return found
 

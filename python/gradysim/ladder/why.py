@@ -98,7 +98,7 @@ def _ratios(replay: Replay) -> Mapping[str, float]:
     at the end of the run do not count.
     """
     frames: Any = replay.table("frames")
-    receptions = list(replay.receptions())
+    receptions = [reception for reception in replay.receptions() if reception.outcome != _TOO_WEAK]
     ended = Counter(frame for frame, _, outcome in receptions if outcome != "in_air")
     addressees = 0
     complete = set()

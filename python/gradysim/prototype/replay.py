@@ -93,7 +93,7 @@ class PrototypeRecorder(TableRecorder):
             sender,
             BROADCAST if is_broadcast else int(command.destination or 0),
             _KINDS[command.command_type],
-            len(command.message.encode(errors="replace")),
+            command.message,
             delay_s,
             dict.fromkeys(receivers, _DELIVERED) | dict.fromkeys(lost_at, _LOST),
             out_of_range,

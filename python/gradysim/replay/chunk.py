@@ -92,6 +92,14 @@ class Chunk:
     strings: list[str]
     tables: dict[str, dict[str, Values]] = field(default_factory=dict)
 
+    def messages(self) -> list[str]:
+        """Return the beginnings of the messages, by the values of the column `text` of frames."""
+        data, texts, end = bytes(self.tables["text_bytes"]["byte"]), [""], 0
+        for size in self.tables["texts"]["recorded"]:
+            texts.append(data[end : end + size].decode(errors="replace"))
+            end += size
+        return texts
+
 
 def pack(chunk: RawChunk) -> bytes:
     """Return the bytes of a chunk."""

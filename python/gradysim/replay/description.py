@@ -55,7 +55,7 @@ def _text_of(scenario: Scenario) -> str:
 def _obstacle(obstacle: ObstacleSpec) -> Mapping[str, Any]:
     """Return its outer footprint and its heights in meters."""
     return {
-        "name": obstacle.name,
+        "name": obstacle.label or obstacle.name,
         "points": obstacle.rings[0],
         "bottom_m": obstacle.base_m,
         "top_m": obstacle.top_m,

@@ -13,7 +13,7 @@ from typing import IO, Any
 
 from gradysim.viewer.page import json_text, page
 
-FORMAT = 1
+FORMAT = 2
 """Version of the format. Readers reject other versions."""
 
 _RUN = '<script type="application/json" id="gradysim-run">'

@@ -4,19 +4,23 @@ from array import array
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from gradysim.replay.chunk import Chunk, Values, unpack
 from gradysim.replay.file import read_parts
-from gradysim.replay.tables import BELOW_SENSITIVITY, OUTCOMES, TABLES
+from gradysim.replay.losses import Loss, losses_of
+from gradysim.replay.paths import Paths
+from gradysim.replay.tables import BELOW_SENSITIVITY, OUTCOMES, TABLES, TEXT_LEFT_OUT
 
 _NS_PER_S = 1e9
 
 
 class Reception(NamedTuple):
-    """Outcome of a frame at a receiver that noticed it.
+    """Outcome of a frame at a receiver.
+
+    Receivers that did not notice the frame are included if something else than distance took its power.
 
     Attributes:
         frame: Row of the table `frames` of the whole run.
@@ -67,7 +71,9 @@ class Replay:
             for chunk in self.chunks:
                 values = chunk.tables[name][column.name]
                 if _is_text(name, column.name):
-                    parts.extend(chunk.strings[index] for index in values)
+                    is_message = (name, column.name) == ("frames", "text")
+                    texts = chunk.messages() if is_message else chunk.strings
+                    parts.extend("" if index == TEXT_LEFT_OUT else texts[index] for index in values)
                 elif column.name == "frame":
                     parts.extend(frames + frame for frame in values)
                 else:
@@ -77,16 +83,25 @@ class Replay:
         return columns
 
     def receptions(self) -> Iterator[Reception]:
-        """Yield each reception that a receiver noticed, by frame, then by receiver."""
+        """Yield each reception that was noticed or lost, by frame, then by receiver."""
         first = 0
         for chunk in self.chunks:
             for frame, receiver, outcome in receptions_of(chunk):
                 yield Reception(first + frame, receiver, OUTCOMES[outcome])
             first += len(chunk.tables["frames"]["node"])
 
+    def losses(self) -> Iterator[Loss]:
+        """Yield why frames were lost, by frame: below the sensitivity, to noise or to interference."""
+        first = 0
+        for chunk in self.chunks:
+            for loss in losses_of(chunk):
+                yield replace(loss, frame=first + loss.frame)
+            first += len(chunk.tables["frames"]["node"])
+
     def outcomes(self) -> dict[str, int]:
         """Count the receptions by outcome, as in the result of the run, without `in_air`."""
         counts: Counter[str] = Counter(reception.outcome for reception in self.receptions())
+        del counts["below_sensitivity"]  # some of the unnoticed ones
         unnoticed = sum(sum(chunk.tables["frames"]["unnoticed"]) for chunk in self.chunks)
         if unnoticed:
             counts["out_of_range" if self.run["mode"] == "prototype" else "below_sensitivity"] += unnoticed
@@ -101,20 +116,8 @@ class Replay:
             raise ValueError(f"no position at {time_s} s: expected a time from 0 s to {self.end_s} s")
         time_ns = time_s * _NS_PER_S
         starts = [chunk.start_ns for chunk in self.chunks]
-        legs = self.chunks[max(0, bisect_right(starts, time_ns) - 1)].tables["legs"]
-        places: dict[int, tuple[float, float, float]] = {}
-        for row, node in enumerate(legs["node"]):
-            since_ns = time_ns - legs["time_ns"][row]
-            if since_ns < 0 and node in places:  # a later leg
-                continue
-            duration_ns = legs["duration_ns"][row]
-            share = 1.0 if since_ns >= duration_ns else max(0.0, since_ns / duration_ns)
-            x, y, z = (
-                legs[f"{axis}0"][row] + share * (legs[f"{axis}1"][row] - legs[f"{axis}0"][row])
-                for axis in "xyz"
-            )
-            places[node] = (x, y, z)
-        return [places[node] for node in sorted(places)]
+        paths = Paths(self.chunks[max(0, bisect_right(starts, time_ns) - 1)])
+        return [paths.position(node, time_ns) for node in paths.nodes]
 
     def _all_receptions(self) -> dict[str, Any]:
         frames, receivers, outcomes = array("I"), array("I"), array("B")
@@ -159,6 +162,7 @@ def receptions_of(chunk: Chunk) -> Iterator[tuple[int, int, int]]:
 def _is_text(table: str, column: str) -> bool:
     return (table, column) in {
         ("frames", "cause"),
+        ("frames", "text"),
         ("variables", "name"),
         ("variables", "text"),
         ("events", "text"),

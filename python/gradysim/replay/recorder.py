@@ -8,7 +8,17 @@ from typing import Any, Final
 from gradysim.protocol.plain_value import as_float, key_text
 from gradysim.protocol.position import Position
 from gradysim.replay.chunk import RawChunk, raw
-from gradysim.replay.tables import BELOW_SENSITIVITY, NOT_LOST, OUTCOMES, TABLES, text_of_value
+from gradysim.replay.tables import (
+    BELOW_SENSITIVITY,
+    MOST_BYTES_OF_TEXT,
+    MOST_TEXT_BYTES,
+    NO_POWER,
+    NOT_LOST,
+    OUTCOMES,
+    TABLES,
+    TEXT_LEFT_OUT,
+    text_of_value,
+)
 
 LONGEST_CHUNK_NS: Final = 60_000_000_000
 MOST_FRAMES: Final = 20_000
@@ -77,7 +87,7 @@ class TableRecorder:
         sender: int,
         destination: int,
         kind: int,
-        size: int,
+        text: str,
         delay_s: float,
         outcomes: dict[int, int],
         out_of_range: int,
@@ -88,7 +98,7 @@ class TableRecorder:
             sender: Id of the node.
             destination: Id of a node, or `BROADCAST`.
             kind: Number of the kind, see `FRAME_KINDS`.
-            size: Bytes.
+            text: Its content.
             delay_s: Delay until it arrives; s.
             outcomes: {receiver in range: number of the outcome}.
             out_of_range: Number of receivers that are not in range.
@@ -110,9 +120,11 @@ class TableRecorder:
             kind=kind,
             retry=0,
             destination=destination,
-            bytes=size,
+            bytes=len(text.encode(errors="replace")),
             bitrate_bps=0,
+            power_cdbm=NO_POWER,
             cause=self._text(self.cause),
+            text=self._message_row(text),
             receptions=len(outcomes),
             unnoticed=out_of_range,
         )
@@ -167,6 +179,7 @@ class TableRecorder:
     def _begin_chunk(self) -> None:
         self._start_ns = self._now_ns()
         self._texts: dict[str, int] = {"": 0}
+        self._messages: dict[str, int] = {}
         self._columns: dict[str, dict[str, list[Any]]] = {
             name: {column.name: [] for column in columns} for name, columns in TABLES.items()
         }
@@ -198,6 +211,19 @@ class TableRecorder:
 
     def _text(self, text: str) -> int:
         return self._texts.setdefault(text, len(self._texts))
+
+    def _message_row(self, text: str) -> int:
+        """Return the value of the column `text` of frames, and record a message that is new."""
+        recorded = self._columns["text_bytes"]["byte"]
+        if text not in self._messages and len(recorded) >= MOST_TEXT_BYTES:
+            return TEXT_LEFT_OUT
+        number = self._messages.setdefault(text, len(self._messages) + 1)
+        if number > len(self._columns["texts"]["bytes"]):
+            data = text.encode(errors="replace")
+            beginning = data[:MOST_BYTES_OF_TEXT].decode(errors="ignore").encode()
+            self._row("texts", recorded=len(beginning), bytes=len(data))
+            recorded.extend(beginning)
+        return number
 
     def _now_ns(self) -> int:
         return round(self._now_s() * _NS_PER_S)

@@ -41,7 +41,16 @@ BELOW_SENSITIVITY: Final = 255
 """The outcome of a row of `receptions` whose receiver does not notice further frames of this sender."""
 
 NO_POWER: Final = -32768
-"""In a column of powers: unknown, or no interference."""
+"""In a column of powers: unknown, less than -300 dBm, or no interference."""
+
+TEXT_LEFT_OUT: Final = 0xFFFFFFFF
+"""In a column of texts: the chunk has too many of them."""
+
+MOST_BYTES_OF_TEXT: Final = 2000
+"""Longer messages are cut to this size."""
+
+MOST_TEXT_BYTES: Final = 500_000
+"""Once the texts of a chunk have this size, it gets no further ones."""
 
 FRAME_KINDS: Final = ("broadcast", "unicast", "ack", "rts", "cts")
 
@@ -61,8 +70,8 @@ OUTCOMES: Final = (
 )
 """Names of the outcomes of a reception, by number. The last two occur only in prototype mode."""
 
-NOT_LOST: Final = frozenset({"delivered", "below_sensitivity", "in_air", "out_of_range"})
-"""Outcomes that are not losses."""
+NOT_LOST: Final = frozenset({"delivered", "in_air", "out_of_range"})
+"""Outcomes in the table of receptions that are not losses."""
 
 EVENT_KINDS: Final = ("timer", "command", "debug", "info", "warning", "error")
 """Names of the kinds of events, by number. The last four are log lines, by their level."""
@@ -79,29 +88,50 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
         Column("destination", "u32"),
         Column("bytes", "u32"),
         Column("bitrate_bps", "u32"),
+        Column("power_cdbm", "i16"),  # sent, in 0.01 dBm
         Column("cause", "u32"),  # string: the callback that sent it
+        Column("text", "u32"),  # the message: 0 for none, n for row n - 1 of `texts`
         Column("receptions", "u32"),  # number of receivers that noticed it
         Column("unnoticed", "u32"),  # number of those that did not: below their sensitivity, or out of range
     ),
     # Outcomes at receivers, if they differ from those of the last frame of the same sender and interface
-    # in this chunk. Before the first row no receiver notices a frame.
+    # in this chunk. Before the first row no receiver notices a frame. `below_sensitivity` occurs here only
+    # where something else than distance took the power, at the 50 strongest of each frame, and at the
+    # destination. Receivers farther away only count as `unnoticed`.
     "receptions": (
         Column("frame", "u32", delta=True),
         Column("receiver", "u32"),
         Column("outcome", "u8"),
     ),
-    # Frames that a receiver was locked on to and lost; powers in 0.01 dBm.
+    # Why receivers lost a frame, below their sensitivity or locked on to it. Powers in 0.01 dBm, gains in
+    # 0.01 dB. The path loss is what all other gains leave of the sent power.
     "losses": (
         Column("frame", "u32", delta=True),
         Column("receiver", "u32"),
         Column("power_cdbm", "i16"),
+        Column("needed_cdb", "i16"),  # without noise: sensitivity; with noise: SINR for half of such frames
+        Column("noise_cdbm", "i16"),  # NO_POWER below the sensitivity
         Column("interference_cdbm", "i16"),
+        Column("distance_cdb", "i16"),  # path loss, only where the power is NO_POWER; otherwise 0
+        Column("sender_antenna_cdb", "i16"),
+        Column("receiver_antenna_cdb", "i16"),
+        Column("ground_cdb", "i16"),
+        Column("shadowing_cdb", "i16"),
+        Column("fading_cdb", "i16"),
     ),
-    # The nodes that caused a loss by interference, from strong to weak.
+    # The obstacles between sender and receiver of a loss, by their index in the description of the run.
+    "obstructions": (
+        Column("frame", "u32", delta=True),
+        Column("receiver", "u32"),
+        Column("obstacle", "u32"),
+        Column("gain_cdb", "i16"),
+    ),
+    # The nodes that caused a loss by interference, from strong to weak, with their power there.
     "interferers": (
         Column("frame", "u32", delta=True),
         Column("receiver", "u32"),
         Column("node", "u32"),
+        Column("power_cdbm", "i16"),
     ),
     # Straight legs at constant speed; after its last leg a node is stationary. A chunk starts with one of
     # each node.
@@ -130,6 +160,12 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
         Column("kind", "u8"),
         Column("text", "u32"),
     ),
+    # The messages of the frames, each once: their beginnings one after the other in UTF-8, and their sizes.
+    "texts": (
+        Column("recorded", "u32"),
+        Column("bytes", "u32"),  # of the whole message
+    ),
+    "text_bytes": (Column("byte", "u8"),),
 }
 
 

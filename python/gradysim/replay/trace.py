@@ -1,7 +1,7 @@
 """Prints the events at nodes, one line for each event, in the order of their times.
 
       1.042371  nodes[0]  timer    greet
-      1.042871  nodes[0]  tx       #7 broadcast to all: delivered at 2 of 3, 12 B, 1 Mbps, by timer greet
+      1.042871  nodes[0]  tx       #7 broadcast to all: delivered at 2 of 3, 12 B, by timer greet, "hi"
       1.043371  nodes[1]  rx       #7 broadcast from nodes[0]: delivered
       1.043371  nodes[1]  set      heard = 1
 
@@ -9,6 +9,7 @@ Columns: simulated time in seconds, node, event, details. #7 is the number of th
 `frames` in a replay of the same run.
 """
 
+import json
 import math
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -16,8 +17,9 @@ from typing import Any, NamedTuple
 
 from gradysim.protocol.plain_value import readable_number
 from gradysim.replay.chunk import Chunk, RawChunk, unpacked
+from gradysim.replay.losses import losses_of
 from gradysim.replay.reader import receptions_of
-from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, NO_POWER, OUTCOMES
+from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES, TEXT_LEFT_OUT
 
 _CHUNK_S = 0.1
 """Wall time between two chunks, in seconds."""
@@ -26,6 +28,7 @@ _HELD_BACK_NS = 200_000_000
 """A frame is recorded at its end, at most this long after its start: 25 kB at 1 Mbps."""
 
 _WIDEST_NAME = 20
+_SHOWN_TEXT = 200
 _TRACED_EVENTS = ("timer", "command")
 
 # The order of lines of one instant. A reception follows its frame directly if the frame takes no time.
@@ -71,6 +74,7 @@ class Trace:
     def begin(self, run: Mapping[str, Any]) -> None:
         """Store the names of the nodes."""
         self._names: Sequence[str] = [node["name"] for node in run["nodes"]]
+        self._obstacles: Sequence[str] = [obstacle["name"] for obstacle in run["obstacles"]]
         self._width = name_width(self._names)
         self._unnoticed = "out_of_range" if run["mode"] == "prototype" else "below_sensitivity"
 
@@ -108,7 +112,8 @@ class Trace:
         outcomes: list[dict[int, int]] = [{} for _ in frames["node"]]
         for frame, receiver, outcome in receptions_of(chunk):
             outcomes[frame][receiver] = outcome
-        losses = _losses(chunk)
+        losses = {(loss.frame, loss.receiver): loss for loss in losses_of(chunk)}
+        messages = chunk.messages()
         for frame, sender in enumerate(frames["node"]):
             start_ns, duration_ns = frames["time_ns"][frame], frames["duration_ns"][frame]
             is_answer = chunk.strings[frames["cause"][frame]] == "packet"
@@ -119,6 +124,9 @@ class Trace:
                 name += " retry"
             if sender in self._nodes:
                 details = f"{name} to {self._sent(chunk, frame, outcomes[frame])}"
+                text = frames["text"][frame]
+                if text != TEXT_LEFT_OUT and messages[text]:
+                    details += f", {_quoted(messages[text])}"
                 yield _Line(start_ns, rank, number, sender, "tx", details)
             destination = frames["destination"][frame]
             source = self._names[sender]
@@ -131,7 +139,8 @@ class Trace:
                     f" to {self._names[destination]}" if destination not in (BROADCAST, receiver) else ""
                 )
                 details = f"{name} from {source}{overheard}: {OUTCOMES[outcome]}"
-                details += self._loss(losses.get((frame, receiver)))
+                if (loss := losses.get((frame, receiver))) is not None:
+                    details += f", {loss.words(self._names, self._obstacles, sender)}".removesuffix(", ")
                 yield _Line(
                     start_ns + duration_ns,
                     _RECEPTION if duration_ns else rank,
@@ -160,17 +169,6 @@ class Trace:
         to = "all" if destination == BROADCAST else self._names[destination]
         return f"{to}: {', '.join(parts)}"
 
-    def _loss(self, loss: "_Loss | None") -> str:
-        """Return the reason why a receiver lost a frame that it was locked on to."""
-        if loss is None:
-            return ""
-        text = f", {loss.power_dbm:.1f} dBm"
-        if loss.interference_dbm is not None:
-            text += f", interference {loss.interference_dbm:.1f} dBm"
-        if loss.interferers:
-            text += f" of {' '.join(self._names[node] for node in loss.interferers)}"
-        return text
-
     def _lines_of_events(self, chunk: Chunk) -> Iterator[_Line]:
         events, variables = chunk.tables["events"], chunk.tables["variables"]
         rows = zip(*(events[column] for column in ("time_ns", "node", "kind", "text")), strict=True)
@@ -190,21 +188,6 @@ class Trace:
                 yield _Line(time_ns, _VARIABLE, row, node, "set", f"{variable} = {value}")
 
 
-class _Loss(NamedTuple):
-    power_dbm: float
-    interference_dbm: float | None
-    interferers: list[int]
-
-
-def _losses(chunk: Chunk) -> dict[tuple[int, int], _Loss]:
-    """Return {(frame, receiver): reason of the loss}."""
-    columns = ("frame", "receiver", "power_cdbm", "interference_cdbm")
-    table = chunk.tables["losses"]
-    losses = {
-        (frame, receiver): _Loss(power / 100, None if interference == NO_POWER else interference / 100, [])
-        for frame, receiver, power, interference in zip(*(table[name] for name in columns), strict=True)
-    }
-    table = chunk.tables["interferers"]
-    for frame, receiver, node in zip(table["frame"], table["receiver"], table["node"], strict=True):
-        losses[frame, receiver].interferers.append(node)
-    return losses
+def _quoted(message: str) -> str:
+    """Return the first 200 characters of a message on one line."""
+    return json.dumps(message[:_SHOWN_TEXT], ensure_ascii=False) + ("…" if len(message) > _SHOWN_TEXT else "")

@@ -195,8 +195,19 @@ def _obstacles(
             if own[field] < least:
                 raise _BadGeojsonError(f"its {key} is {own[field]:g}; expected at least {least}")
     sources = {OBSTACLE_FILE.target: source}
+    label = properties.get("name")
     return [
-        ObstacleSpec(name, _rings(polygon, place), base_m, top_m, source, material, **own, sources=sources)
+        ObstacleSpec(
+            name,
+            _rings(polygon, place),
+            base_m,
+            top_m,
+            source,
+            material,
+            **own,
+            sources=sources,
+            label=label if isinstance(label, str) else "",
+        )
         for polygon in polygons
     ]
 

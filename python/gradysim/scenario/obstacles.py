@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import pairwise
+from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
@@ -45,6 +46,7 @@ class ObstacleSpec:
         relative_permittivity: Replaces that of the material; -1 keeps it.
         conductivity_spm: Replaces that of the material, in S/m; -1 keeps it.
         sources: Where its values were written, by the targets of their keys.
+        label: Its name alone, without the file; "" if it has none.
     """
 
     name: str
@@ -56,6 +58,7 @@ class ObstacleSpec:
     relative_permittivity: float = -1.0
     conductivity_spm: float = -1.0
     sources: Mapping[str, Source] = field(default_factory=dict)
+    label: str = ""
 
 
 def obstacle_count(lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> int:
@@ -117,7 +120,7 @@ def _obstacle(name: str, values: Mapping[str, Setting], source: Source) -> Obsta
             text = f"expected more than min{axis.upper()}, {low.value:g}m"
             errors.add(ConfigError.at(high.source, text))
     errors.raise_all()
-    own = {
+    own: dict[str, Any] = {
         property_name: float(values[property_name].value)
         for property_name in ("relative_permittivity", "conductivity_spm")
         if property_name in values

@@ -3,10 +3,14 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
 #include "netsim/medium/arrival.hpp"
+#include "netsim/phy/antenna.hpp"
+#include "netsim/units.hpp"
 
 namespace netsim {
 namespace {
@@ -128,6 +132,99 @@ TEST_F(LinksTest, TheAddresseeIsTheInterfaceThatCanDecodeIt) {
     EXPECT_EQ(addressee_of_frame_to(0), -1);  // the sender itself
     EXPECT_EQ(addressee_of_frame_to(3), -1);  // not to any node
     EXPECT_EQ(addressee_of_frame_to(broadcast_id), -1);
+}
+
+struct Environment {
+    const char* name;
+    void (*change)(MediumConfig& config);
+};
+
+ObstacleConfig wall(double x, const char* material) {
+    ObstacleConfig obstacle;
+    obstacle.rings = {{{x, -50}, {x + 0.2, -50}, {x + 0.2, 50}, {x, 50}}};
+    obstacle.top_m = 20;
+    obstacle.material = material;
+    return obstacle;
+}
+
+constexpr Environment environments[] = {
+    {"FreeSpace", [](MediumConfig& /*config*/) {}},
+    {"Breakpoint", [](MediumConfig& config) { config.path_loss = "BreakpointPathLoss"; }},
+    {"GroundReflection", [](MediumConfig& config) { config.path_loss = "TwoRayGroundReflection"; }},
+    {"TwoRays", [](MediumConfig& config) { config.path_loss = "TwoRayInterference"; }},
+    {"Rayleigh", [](MediumConfig& config) { config.path_loss = "RayleighFading"; }},
+    {"Shadowing", [](MediumConfig& config) { config.shadowing_standard_deviation_db = 6; }},
+    {"Walls",
+     [](MediumConfig& config) {
+         config.obstacle_loss = "DielectricObstacleLoss";
+         config.obstacles = {wall(-30, "metal"), wall(10, "brick"), wall(20, "glass")};
+     }},
+    {"Everything",
+     [](MediumConfig& config) {
+         config.path_loss = "NakagamiFading";
+         config.shadowing_standard_deviation_db = 6;
+         config.obstacle_loss = "DielectricObstacleLoss";
+         config.obstacles = {wall(-30, "metal"), wall(10, "brick"), wall(20, "glass")};
+     }},
+};
+
+class PowerBudgetIn : public testing::TestWithParam<Environment> {};
+
+TEST_P(PowerBudgetIn, HasTheFactorsOfThePowerOfTheRun) {
+    MediumConfig config;
+    GetParam().change(config);
+    AntennaConfig dish;
+    dish.type_name = "ParabolicAntenna";
+    dish.max_gain = 30;
+    dish.beam_width_rad = 0.5;
+    Links links(config, 7);
+    const auto pattern = make_antenna(dish, usual().band.carrier_hz);
+    const Position places[] = {{0, 0, 5}, {40, 10, 9}, {25, -7, 3}, {300, 4, 12}};
+    std::deque<Trajectory> paths;
+    for (NodeId node = 0; node < 4; ++node) {
+        const MountedAntenna antenna{node == 0 ? pattern.get() : nullptr, Attitude(), Orientation()};
+        links.add(InterfaceId{node, 0},
+                  {.trajectory = &paths.emplace_back(places[node]), .parameters = usual()}, antenna,
+                  SimTime());
+    }
+    for (RadioId radio = 1; radio < 4; ++radio) {
+        Transmission sent;
+        sent.power_w = 0.02;
+        sent.band = usual().band;
+        sent.start = SimTime::from_us(10);
+        sent.origin = places[0];
+        const double power_w =
+            links.power_w(sent, 1, radio, places[radio], distance(places[0], places[radio]));
+        const PowerBudget budget = links.power_budget(sent, radio, places[radio]);
+        EXPECT_NEAR(db_from_ratio(budget.received_w() / power_w), 0, 1e-9);
+        EXPECT_EQ(budget.sent_w, 0.02);
+        EXPECT_NE(budget.sender_antenna, 1);
+        EXPECT_EQ(budget.receiver_antenna, 1);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Links, PowerBudgetIn, testing::ValuesIn(environments),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+TEST(PowerBudget, NamesTheObstaclesByTheirPlaceInTheConfiguration) {
+    MediumConfig config;
+    config.obstacle_loss = "DielectricObstacleLoss";
+    config.obstacles = {wall(-30, "metal"), wall(20, "glass"), wall(60, "metal"), wall(10, "brick")};
+    Links links(config, 7);
+    const Trajectory here({0, 0, 5});
+    const Trajectory there({40, 0, 5});
+    links.add(InterfaceId{0, 0}, {.trajectory = &here, .parameters = usual()}, {}, SimTime());
+    links.add(InterfaceId{1, 0}, {.trajectory = &there, .parameters = usual()}, {}, SimTime());
+    Transmission sent;
+    sent.power_w = 0.02;
+    sent.band = usual().band;
+    sent.origin = {0, 0, 5};
+    std::map<std::size_t, double> crossed;
+    for (const auto& [index, gain] : links.power_budget(sent, 1, {40, 0, 5}).obstacles) {
+        crossed[index] = gain;
+    }
+    ASSERT_EQ(crossed.size(), 2U);
+    EXPECT_GT(crossed.at(1), crossed.at(3));  // glass lets more through than brick
 }
 
 }  // namespace

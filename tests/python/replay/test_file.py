@@ -1,6 +1,6 @@
 import pytest
 
-from gradysim.replay.file import ReplayFile, read_parts
+from gradysim.replay.file import FORMAT, ReplayFile, read_parts
 
 
 @pytest.fixture
@@ -16,7 +16,7 @@ def test_what_is_written_is_read(path):
     file.end({"complete": True})
     file.close()
     run, chunks, end = read_parts(path)
-    assert run == {"format": 1, "config": "</script><b>"}
+    assert run == {"format": FORMAT, "config": "</script><b>"}
     assert list(chunks) == [b"one", b"two"]
     assert end == {"complete": True}
 

@@ -1,6 +1,7 @@
 """The lines of a trace compared with a replay of the same run, in both modes."""
 
 from collections import Counter
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +11,7 @@ from gradysim.replay import read_replay
 from gradysim.replay.sink import ReplayWriter, Sinks
 from gradysim.replay.tables import OUTCOMES
 from gradysim.replay.trace import Trace, name_width, text_line
+from gradysim.scenario import load_scenarios
 
 RUNS = {"integrated": IntegratedRun, "prototype": PrototypeRun}
 
@@ -101,7 +103,7 @@ def test_a_unicast_frame_has_the_outcome_at_its_destination(traced, mode):
     lines, _ = traced([0])
     sent = [details for *_, event, details in lines if event == "tx" and " unicast " in details]
     assert sent
-    assert all(": delivered, " in details and details.endswith(", by packet") for details in sent)
+    assert all(": delivered, " in details and ", by packet, " in details for details in sent)
     far, _ = traced([0], TRACED, "*.uavs[*].mobility.lineStepX = 100km")
     assert all("delivered at 0 of 1" in details for *_, event, details in far if event == "tx")
 
@@ -125,6 +127,36 @@ class Tested(Quiet):
     lines = [line.split(maxsplit=3)[3] for line in capsys.readouterr().out.splitlines()]
     assert {line.split(": ")[1].split(",")[0] for line in lines} <= set(OUTCOMES)
     assert any(": interference, " in line and line.endswith(("of uavs[0]", "of uavs[2]")) for line in lines)
+
+
+TOWN = load_scenarios(Path(__file__).parents[3] / "configs/town/town.ini", "SectorAntenna")[0]
+
+
+def test_a_frame_below_the_sensitivity_says_what_took_its_power(capsys):
+    IntegratedRun(TOWN, replay=Trace(range(9))).execute()
+    lines = [line.split(maxsplit=3)[1:] for line in capsys.readouterr().out.splitlines()]
+    lost = {node: details.split(": ", 1)[1] for node, event, details in lines if event == "rx"}
+    assert lost["drones[2]"] == (
+        "below_sensitivity, -85.6 dBm, needs -85.0 dBm (0.6 dB short): 245 m take 87.9 dB of -7.0 dBm, "
+        "obstacle 'Glass pavilion' 3.9 dB, antenna of station adds 13.2 dB"
+    )
+    assert lost["drones[0]"].startswith("below_sensitivity, no power, needs -85.0 dBm: 247 m take 88.0 dB ")
+    assert "obstacle 'West block' over 300 dB" in lost["drones[0]"]
+    assert lost["drones[4]"] == "delivered"
+
+
+def test_a_message_is_quoted_on_one_line(traced):
+    python = """
+class Tested(Quiet):
+    def initialize(self):
+        for message in ("two\\nlines", "x" * 300):
+            self.provider.send_communication_command(BroadcastMessageCommand(message))
+"""
+    lines, replay = traced([0], python)
+    sent = [details for *_, event, details in lines if event == "tx"]
+    assert sent[0].endswith(r', "two\nlines"')
+    assert sent[1].endswith(f', "{"x" * 200}"…')
+    assert replay.table("frames")["text"][:2] == ["two\nlines", "x" * 300]
 
 
 def test_receptions_after_the_end_are_left_out(traced, mode):
