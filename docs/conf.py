@@ -13,7 +13,7 @@ release = metadata.version("gradysim")
 version = release
 
 extensions = [
-    "myst_parser",
+    "myst_nb",  # Markdown and notebooks
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
     "sphinx_copybutton",
@@ -27,6 +27,12 @@ default_role = "py:obj"
 # Markdown: links to headings as on GitHub.
 myst_heading_anchors = 4
 myst_enable_extensions = ["attrs_block", "attrs_inline"]
+
+# Notebooks are stored without outputs. Each build executes them.
+nb_execution_mode = "force"
+nb_execution_in_temp = True
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"

@@ -6,6 +6,9 @@ from html import escape
 MOST_ROWS = 60
 """Rows of a table. Further rows are counted only."""
 
+_CAPTION = "text-align: left; white-space: nowrap"
+"""Otherwise the caption is as narrow as the table."""
+
 
 def html_table(
     caption: str,
@@ -25,7 +28,7 @@ def html_table(
     ]
     shown = [column for column in range(len(headings)) if column not in same]
     caption = ", ".join([caption, *(f"{headings[column]} {rows[0][column]}" for column in same)])
-    lines = [f"<table><caption>{escape(caption)}</caption>"]
+    lines = [f"<table><caption style='{_CAPTION}'>{escape(caption)}</caption>"]
     if rows:
         lines.append(_row("th", [headings[column] for column in shown]))
     lines += [_row("td", [row[column] for column in shown]) for row in rows[:MOST_ROWS]]
