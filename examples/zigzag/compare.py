@@ -45,10 +45,10 @@ def collected(result: RunResult) -> int:
 def frames_with(fate: str, fates: Outcomes) -> str:
     """Return the number of receptions with this outcome at their destinations; a dash if it does not exist.
 
-    Acknowledgements are left out. Prototype mode has no frames: there it counts receptions of messages.
+    Acknowledgements are left out.
     """
-    ledger = fates.get("frames") or fates["copies"]
-    counts = [ledger[kind][fate] for kind in ("broadcast", "unicast") if fate in ledger[kind]]
+    frames = fates["frames"]
+    counts = [frames[kind][fate] for kind in ("broadcast", "unicast") if fate in frames[kind]]
     return f"{sum(counts):,}" if counts else "-"
 
 

@@ -33,9 +33,7 @@ MAX_NODES, NODES_OF_MANY = 50, 20
 
 ARRIVED = {
     "unicast messages acknowledged": "unicast acknowledged",
-    "unicast messages delivered": "unicast delivered",
     "broadcast frames delivered": "broadcast delivered",
-    "broadcast copies delivered": "broadcast delivered",
 }
 """Ratios in the line of a run, and their names there."""
 

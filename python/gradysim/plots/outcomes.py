@@ -24,7 +24,6 @@ _COLORS = {
     "acknowledged": "#009E73",
     "sent": "#009E73",
     "below sensitivity": "#DDDDDD",
-    "out of range": "#DDDDDD",
 }
 """Colors of arrived and of distant frames; the other outcomes have the other colors."""
 

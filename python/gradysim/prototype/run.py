@@ -106,7 +106,7 @@ class PrototypeRun(ScenarioRun):
             "sim_time_s": simulator.current_time,
             "events": simulator.iteration,
             "fingerprint": None,
-            "fates": {"copies": ledger.copy_fates(), "messages": ledger.message_fates()},
+            "fates": {"frames": ledger.frame_fates(), "messages": ledger.message_fates()},
             "range_m": mean_range_m(ranges_of_prototype_m(self._scenario)),
             "message_delays": {
                 kind: constant_delays(counts)

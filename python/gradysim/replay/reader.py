@@ -104,7 +104,7 @@ class Replay:
         del counts["below_sensitivity"]  # some of the unnoticed ones
         unnoticed = sum(sum(chunk.tables["frames"]["unnoticed"]) for chunk in self.chunks)
         if unnoticed:
-            counts["out_of_range" if self.run["mode"] == "prototype" else "below_sensitivity"] += unnoticed
+            counts["below_sensitivity"] += unnoticed
         return dict(counts)
 
     def positions(self, time_s: float) -> list[tuple[float, float, float]]:

@@ -62,10 +62,28 @@ class Pairs:
         return self._compared(wanted, lambda run: run.numbers, binary)
 
     def losses(self) -> list[Change]:
-        """Return the change of each cause of loss, as a share of receptions, if any was lost."""
+        """Return the change of each cause of loss, as a share of receptions, if any was lost.
+
+        A mode that does not have a cause loses nothing by it.
+        """
         shares = {id(run): loss_shares(fates_of(run)) for run in self.all_runs}
-        causes = dict.fromkeys(name for found in shares.values() for name, share in found.items() if share)
-        found = self._compared(causes, lambda run: shares[id(run)])
+        causes = dict.fromkeys(
+            (kind, cause)
+            for of_kinds in shares.values()
+            for kind, of_kind in of_kinds.items()
+            for cause, share in of_kind.items()
+            if share
+        )
+
+        def numbers(run: RunSummary) -> dict[str, float]:
+            of_kinds = shares[id(run)]
+            return {
+                f"{kind} {cause}": of_kinds[kind].get(cause, 0.0)
+                for kind, cause in causes
+                if kind in of_kinds
+            }
+
+        found = self._compared([" ".join(names) for names in causes], numbers)
         return [loss for loss in found if any(side and side.mean for side in (loss.first, loss.second))]
 
     @property

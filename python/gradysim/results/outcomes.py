@@ -44,12 +44,9 @@ class Ledger:
 
 LEDGERS = {
     "frames": Ledger("Outcomes of frames, a reception for each radio", "receptions", "radioMedium"),
-    "copies": Ledger(
-        "Outcomes of messages, a reception for each receiver", "receptions", "communicationMedium"
-    ),
     "messages": Ledger("Messages", "messages", suffix="Message"),
 }
-"""Integrated mode has "frames" and "messages", prototype mode "copies" and "messages"."""
+"""In prototype mode each message has one frame."""
 
 
 def plain_counts(counts: Counts) -> dict[str, dict[str, int]]:
@@ -86,37 +83,29 @@ def _camel_case(text: str) -> str:
 def outcome_ratios(outcomes: Mapping[str, Any]) -> Iterator[Average]:
     """Yield `unicast messages acknowledged`, its ratio of all decided messages, and so on.
 
-    Messages have a ratio for each outcome. Frames, and broadcasts in prototype mode, have the delivery ratio
-    of receptions. Kinds without decided outcomes are left out, and so are overheard frames.
+    Messages have a ratio for each outcome, and frames the delivery ratio of receptions. Kinds without decided
+    outcomes are left out, and so are overheard frames.
     """
-    copies, frames, messages = (outcomes.get(ledger) or {} for ledger in ("copies", "frames", "messages"))
-    # In prototype mode a message to one node has one reception with the outcome of the message.
-    unicast = copies.get("unicast") or messages.get("unicast") or {}
-    for outcome, ratio in _ratios(unicast):
-        shown_at_zero = outcome in ("acknowledged", "delivered")
-        yield Average(f"unicast messages {outcome}", ratio, shown_at_zero)
+    frames, messages = (outcomes.get(ledger) or {} for ledger in ("frames", "messages"))
+    for outcome, ratio in _ratios(messages.get("unicast") or {}):
+        yield Average(f"unicast messages {outcome}", ratio, outcome == "acknowledged")
     for outcome, ratio in _ratios(messages.get("broadcast") or {}):
         if outcome not in ("sent", "acknowledged"):  # all others are sent, and broadcasts have no ACK
             yield Average(f"broadcast messages {outcome}", ratio, outcome == "delivered")
     for kind, counts in frames.items():
         if not kind.endswith(_OVERHEARD):
             yield from _delivered(f"{kind} frames", counts)
-    yield from _delivered("broadcast copies", copies.get("broadcast") or {})
 
 
-def loss_shares(outcomes: Outcomes) -> dict[str, float]:
-    """Return the share of receptions of each cause of loss, `{"broadcast frames interference": 0.1}`.
+def loss_shares(outcomes: Outcomes) -> dict[str, dict[str, float]]:
+    """Return the share of receptions of each cause of loss, `{"broadcast frames": {"interference": 0.1}}`.
 
-    Causes have 0 if a kind of frame lost no reception. Overheard frames are left out.
+    Kinds of frames without receptions are left out, and so are overheard frames.
     """
     return {
-        f"{kind} {ledger} {outcome}": share
-        for ledger, counts in outcomes.items()
-        if LEDGERS[ledger].label == "receptions"
-        for kind, of_kind in counts.items()
-        if not kind.endswith(_OVERHEARD)
-        for outcome, share in _ratios(of_kind)
-        if outcome != "delivered"
+        f"{kind} frames": {outcome: share for outcome, share in shares.items() if outcome != "delivered"}
+        for kind, counts in (outcomes.get("frames") or {}).items()
+        if not kind.endswith(_OVERHEARD) and (shares := dict(_ratios(counts)))
     }
 
 

@@ -204,10 +204,8 @@ class RunResult:
         Outcomes,
         Quantity(
             "Outcomes of frames and messages, also those that are 0:"
-            ' `fates["frames"][KIND][OUTCOME]`, in prototype mode `fates["copies"]`,'
-            ' and `fates["messages"]`.',
-            scalar="`radioMedium` or `communicationMedium`: `KIND:OUTCOME:count`;"
-            " `KINDMessage:OUTCOME:count`",
+            ' `fates["frames"][KIND][OUTCOME]` and `fates["messages"]`.',
+            scalar="`radioMedium`: `KIND:OUTCOME:count`; `KINDMessage:OUTCOME:count`",
             mean="`KIND messages OUTCOME`, `KIND frames delivered`",
             scalars=outcome_scalars,
             averages=outcome_ratios,

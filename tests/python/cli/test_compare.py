@@ -38,7 +38,7 @@ def test_losses_by_cause(gradysim, studies):
     gradysim("run", "test.ini", "--mode", "prototype", *lossy)
     printed = gradysim("compare", "before", "lossy", "--metric", "uavs[*] said").stdout
     assert "\nGeneral, prototype mode, losses, shares of receptions " in printed
-    assert "\nbroadcast copies lost " in printed
+    assert "\nbroadcast frames lost " in printed
 
 
 def test_numbers_for_other_programs(gradysim, studies):

@@ -32,7 +32,7 @@ def test_means_are_those_of_the_files(gradysim, packed):
 
 def test_figures_are_those_of_the_files(gradysim, folder, packed):
     for directory in ("loose", "out"):
-        for kind, y in (("line", "uavs[*] said"), ("outcomes", "broadcast copies"), ("cdf", "events")):
+        for kind, y in (("line", "uavs[*] said"), ("outcomes", "broadcast frames"), ("cdf", "events")):
             x = () if kind == "cdf" else ("--x", "config")
             file = f"{directory}-{kind}.svg"
             done = gradysim("plot", directory, "--kind", kind, *x, "--y", y, "-o", file)

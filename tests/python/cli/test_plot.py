@@ -44,7 +44,7 @@ def test_a_line_of_means(gradysim, study):
         ("diff", ("--x", "config", "--y", "uavs[*] said", "--by", "limit", "--baseline", "5")),
         ("cdf", ("--y", "broadcast messages delay in s", "--columns", "2", "--log", "y")),
         ("time", ("--y", "uavs[*] said", "--by", "limit")),
-        ("outcomes", ("--y", "broadcast copies", "--x", "limit", "--omit", "out of range", "lost")),
+        ("outcomes", ("--y", "broadcast frames", "--x", "limit", "--omit", "below sensitivity", "lost")),
         ("map", ("--where", "limit=3", "run=1")),
     ],
 )
@@ -77,7 +77,7 @@ def test_runs_without_the_variable_are_left_out(gradysim, study):
         (("--x", "limt", "--y", "events"), "did you mean `limit`?"),
         (("--x", "limit", "--y", "uavs said"), "did you mean `uavs[*] said`?"),
         (("--x", "limit"), "--kind line needs --y"),
-        (("--kind", "outcomes"), "expected one of broadcast copies, broadcast messages"),
+        (("--kind", "outcomes"), "expected one of broadcast frames, broadcast messages"),
         (("--kind", "time"), "expected one of uavs[*] said, uavs[*] positionX, "),
         (
             ("--kind", "cdf", "--y", "broadcast messages delay in s", "--log", "x"),

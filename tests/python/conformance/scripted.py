@@ -114,16 +114,12 @@ def play(mode: str, case: Case, script: Script) -> Outcome:
     log: list[Entry] = []
     members = {"log": log, "script": script, "node_count": len(case.positions)}
     result = case.run(mode, type("Scripted", (Scripted,), members))
-    # In the engine, messages out of range are below the sensitivity.
-    ledger, far = {"integrated": ("frames", "below_sensitivity"), "prototype": ("copies", "out_of_range")}[
-        mode
-    ]
-    fates = result.fates[ledger]
+    fates = result.fates["frames"]
     return Outcome(
         log=log,
         tracked=[dict(node.tracked_variables) for node in result.nodes],
         copies={
-            kind: (fates[kind]["delivered"], fates[kind]["in_air"], fates[kind][far])
+            kind: (fates[kind]["delivered"], fates[kind]["in_air"], fates[kind]["below_sensitivity"])
             for kind in ("broadcast", "unicast")
         },
     )

@@ -10,7 +10,7 @@ from gradysim.simulator.handler.interface import INodeHandler
 def test_fates_count_what_was_sent(make_scenario):
     fates = run(make_scenario()).fates
     assert fates["messages"]["broadcast"] == {"sent": 40}
-    assert fates["copies"]["broadcast"]["delivered"] == 40
+    assert fates["frames"]["broadcast"]["delivered"] == 40
 
 
 @pytest.mark.parametrize(
@@ -23,7 +23,7 @@ def test_fates_count_what_was_sent(make_scenario):
 )
 def test_the_medium_of_the_scenario_is_in_force(make_scenario, setting, fates):
     result = run(make_scenario("class Tested(Talker): pass", setting))
-    assert tuple(result.fates["copies"]["broadcast"].values()) == fates
+    assert tuple(result.fates["frames"]["broadcast"].values()) == fates
 
 
 def test_position_at_the_end(make_scenario):

@@ -60,7 +60,7 @@ def sums_of(fates):
 
 def test_its_outcomes_are_those_of_the_result(recorded):
     result, replay = recorded
-    assert replay.outcomes() == sums_of(result.fates.get("frames") or result.fates["copies"])
+    assert replay.outcomes() == sums_of(result.fates["frames"])
 
 
 def test_a_recorded_run_is_the_same_run(mode, make_scenario, recorded):
@@ -140,7 +140,7 @@ def test_a_long_run_is_in_chunks_of_a_minute(mode, make_scenario, tmp_path):
     scenario = make_scenario(MOVING, "sim-time-limit = 200s")
     result, replay = record(scenario, mode, tmp_path / "run.html")
     assert [round(chunk.end_ns / 1e9) for chunk in replay.chunks] == [60, 120, 180, 200]
-    assert replay.outcomes() == sums_of(result.fates.get("frames") or result.fates["copies"])
+    assert replay.outcomes() == sums_of(result.fates["frames"])
     for time_s in random.Random(1).choices(range(200), k=20):
         assert len(replay.positions(time_s)) == 2
 

@@ -1,7 +1,5 @@
 from typing import Any
 
-import pytest
-
 from gradysim.results.outcomes import outcome_ratios
 
 
@@ -19,27 +17,14 @@ def test_messages_to_one_node_by_their_outcomes() -> None:
     }
 
 
-def test_in_prototype_mode_they_are_its_copies() -> None:
-    copies = {"unicast": {"delivered": 6, "out_of_range": 3, "lost": 1, "in_air": 10}}
-    assert ratios({"copies": copies, "messages": {"unicast": {"sent": 20}}}) == {
-        "unicast messages delivered": 0.6,
-        "unicast messages out of range": 0.3,
-        "unicast messages lost": 0.1,
-    }
-
-
 def test_of_broadcasts_what_kept_them_from_the_air() -> None:
     broadcast = {"sent": 3, "acknowledged": 0, "queue_overflow": 1, "queued": 9}
     assert ratios({"messages": {"broadcast": broadcast}}) == {"broadcast messages queue overflow": 0.25}
 
 
-@pytest.mark.parametrize(
-    ("ledger", "quantity"),
-    [("frames", "broadcast frames delivered"), ("copies", "broadcast copies delivered")],
-)
-def test_of_copies_those_that_arrived(ledger: str, quantity: str) -> None:
+def test_of_frames_those_that_arrived() -> None:
     broadcast = {"delivered": 6, "interference": 2, "in_air": 12}
-    assert ratios({ledger: {"broadcast": broadcast}}) == {quantity: 0.75}
+    assert ratios({"frames": {"broadcast": broadcast}}) == {"broadcast frames delivered": 0.75}
 
 
 def test_frames_that_were_overheard_do_not_count() -> None:

@@ -39,12 +39,10 @@ def test_paths_begin_with_the_name_of_the_network():
 def test_fates_of_the_network():
     fates = {
         "frames": {"unicast overheard": {"below_sensitivity": 2}},
-        "copies": {"broadcast": {"delivered": 3}},
         "messages": {"unicast": {"retry_limit": 4}},
     }
     told = named(dataclasses.replace(RESULT, fates=fates))
     assert told["Network.radioMedium", "unicastOverheard:belowSensitivity:count"] == 2
-    assert told["Network.communicationMedium", "broadcast:delivered:count"] == 3
     assert told["Network", "unicastMessage:retryLimit:count"] == 4
 
 

@@ -189,8 +189,8 @@ def assert_agrees(result: RunResult, undisturbed: RunResult) -> None:
         assert result.fates == undisturbed.fates
         assert [node.position for node in result.nodes] == [node.position for node in undisturbed.nodes]
         return
-    for kind, outcomes in result.fates["copies"].items():
-        in_full = undisturbed.fates["copies"][kind]
+    for kind, outcomes in result.fates["frames"].items():
+        in_full = undisturbed.fates["frames"][kind]
         assert all(count <= in_full[outcome] for outcome, count in outcomes.items() if outcome != "in_air")
 
 

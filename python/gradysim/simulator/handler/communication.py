@@ -76,8 +76,16 @@ class DeliveryLedger:
         return counted
 
     def message_fates(self) -> dict[str, dict[str, int]]:
-        """Return how many messages were sent: {kind: {"sent": count}}."""
-        return {name: {"sent": self._counts[kind].sent} for kind, name in KINDS.items()}
+        """Return the outcomes of the messages so far: {kind: {outcome: count}}.
+
+        A broadcast is "sent". A message to one node that arrived is "acknowledged", since nothing keeps an
+        acknowledgement from the sender.
+        """
+        unicast = self._outcomes(CommunicationCommandType.SEND, "acknowledged", "out_of_range")
+        return {
+            "broadcast": {"sent": self._counts[CommunicationCommandType.BROADCAST].sent},
+            "unicast": unicast,
+        }
 
     def delays(self) -> dict[str, dict[float, int]]:
         """Return the delays of the deliveries so far: {kind: {delay in s: count}}."""
@@ -86,23 +94,23 @@ class DeliveryLedger:
             for kind, name in KINDS.items()
         }
 
-    def copy_fates(self) -> dict[str, dict[str, int]]:
+    def frame_fates(self) -> dict[str, dict[str, int]]:
         """Return the outcomes of the deliveries so far: {kind: {outcome: count}}.
 
-        "out_of_range" and "lost" (by the medium's failure rate) are decided at sending. "in_air" is not
-        delivered yet; at the end of the run, it is never delivered.
+        "below_sensitivity" (beyond the range) and "lost" (by the medium's failure rate) are decided at
+        sending. "in_air" is not delivered yet; at the end of the run, it is never delivered.
         """
-        fates: dict[str, dict[str, int]] = {}
-        for kind, name in KINDS.items():
-            counts = self._counts[kind]
-            delivered = sum(arrivals.count for arrivals in counts.delivered.values())
-            fates[name] = {
-                "delivered": delivered,
-                "out_of_range": counts.out_of_range,
-                "lost": counts.lost,
-                "in_air": counts.carried - delivered,
-            }
-        return fates
+        return {name: self._outcomes(kind, "delivered", "below_sensitivity") for kind, name in KINDS.items()}
+
+    def _outcomes(self, kind: CommunicationCommandType, arrived: str, beyond: str) -> dict[str, int]:
+        counts = self._counts[kind]
+        delivered = sum(arrivals.count for arrivals in counts.delivered.values())
+        return {
+            arrived: delivered,
+            beyond: counts.out_of_range,
+            "lost": counts.lost,
+            "in_air": counts.carried - delivered,
+        }
 
 
 @dataclass

@@ -34,7 +34,7 @@ def test_acknowledgements_are_not_counted() -> None:
 
 
 def test_fates_that_a_mode_does_not_know_are_a_dash() -> None:
-    assert frames_with("noise", {"copies": {"broadcast": {"lost": 1}, "unicast": {"lost": 1}}}) == "-"
+    assert frames_with("noise", {"frames": {"broadcast": {"lost": 1}, "unicast": {"lost": 1}}}) == "-"
 
 
 def test_the_table_fits_a_narrow_terminal(scenario: Scenario) -> None:
