@@ -125,9 +125,9 @@ viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer
 figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of their how-to pages.
 	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/how-to/plot-a-study.md docs/how-to/compare-two-studies.md | sh -e
 	gradysim ladder configs/zigzag.ini -c ZigZag5Synchronised --metric "groundStation data" -n 5 \
-	  --set sim-time-limit=10min --plot docs/pictures/ladder/ladder.png
+	  --set sim-time-limit=10min --output docs/pictures/ladder/ladder.png
 	gradysim desync configs/zigzag.ini -c ZigZag5Synchronised --metric "groundStation data" -n 2 \
-	  --set sim-time-limit=10min --plot docs/pictures/ladder/jitter.png
+	  --set sim-time-limit=10min --output docs/pictures/ladder/jitter.png
 	for kind in ini python sh; do sed -n "/^\`\`\`$$kind$$/,/^\`\`\`$$/{/^\`\`\`/d;p}" docs/how-to/fly-with-inertia.md >results/square.$$kind; done
 	cd results && mv square.python square.py && sh -e square.sh && cp results/inertia.png ../docs/pictures/plots
 	rm docs/pictures/ladder/*.csv docs/pictures/ladder/*.json

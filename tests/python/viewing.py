@@ -28,6 +28,18 @@ def silent_viewer(address: str, message: str = "") -> Iterator[None]:
         yield
 
 
+def visited(command: str, folder: Path) -> int:
+    """Open the page of `gradysim view` of several replays, leave it, and return the exit code."""
+    arguments = [*shlex.split(command)[1:], "--no-browser"]
+    program = [sys.executable, "-m", "gradysim", *arguments]
+    with subprocess.Popen(program, cwd=folder, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        address = urlsplit(process.stdout.readline().strip())
+        with connect(f"ws://{address.netloc}/viewer?{address.query}"):
+            pass
+        return process.wait(20)
+
+
 def watched(command: str, folder: Path, **options: Any) -> tuple[dict[str, Any], int, str]:
     """Return the final message of the run of `gradysim view FILE.ini ...`, exit code and error output."""
     arguments = [*shlex.split(command)[1:], "--no-browser"]

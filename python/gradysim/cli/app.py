@@ -1,23 +1,5 @@
 """The command `gradysim`.
 
-    gradysim new NAME [--example]
-    gradysim run FILE.ini [-c CONFIG] [-r RUNS] [--mode integrated|prototype] ...
-    gradysim check FILE.ini [-c CONFIG]
-    gradysim view FILE.ini|FILE.html...
-    gradysim runs FILE.ini [-c CONFIG]
-    gradysim status DIR FILE.ini [-c CONFIG] [--missing]
-    gradysim means DIR [QUANTITY...] [--csv]
-    gradysim compare DIR DIR [--metric QUANTITY] ...
-    gradysim plot DIR --x VARIABLE --y QUANTITY -o FILE ...
-    gradysim import FILE.ini [-o DIR]
-    gradysim pack DIR [-o FILE] [--remove] [--unpack]
-    gradysim verify DIR
-    gradysim ladder FILE.ini [-c CONFIG] --metric QUANTITY ...
-    gradysim bisect FILE.ini [-c CONFIG] --assert 'QUANTITY >= NUMBER' ...
-    gradysim desync FILE.ini [-c CONFIG] ...
-    gradysim keys [PATTERN] [--markdown]
-    gradysim calibrate FILE.ini [-c CONFIG] --range 50m ...
-
 Exit codes: 0 success; 1 a protocol failed, or ended its process, or `verify` found damage; 2 an error in the
 arguments or the .ini file, or an error of the system, such as a full disk; 3 another process computes a run;
 4 a run needs more than --memory; 5 runs are missing; 130 Ctrl-C; 143 SIGTERM; 129 SIGHUP.
@@ -26,11 +8,11 @@ Each command has its own file in `gradysim.cli`.
 
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
-from cyclopts import App, CycloptsError, CycloptsPanel, UnusedCliTokensError
+from cyclopts import App, CycloptsError, CycloptsPanel, Group, UnknownOptionError, UnusedCliTokensError
 
 from gradysim.cli.bisect import find_breaking_level
 from gradysim.cli.calibrate import calibrate_power
@@ -67,12 +49,28 @@ def installed_version() -> str:
 
 def mistake_in_arguments(error: CycloptsError) -> "RenderableType":
     """Return the message of an error. cyclopts reports only `Unused Tokens` for a superfluous argument."""
+    if isinstance(error, UnknownOptionError) and error.command_chain:
+        return CycloptsPanel(_unknown_option(error))
     if not isinstance(error, UnusedCliTokensError) or not error.unused_tokens:
         return CycloptsPanel(error)
     first = error.unused_tokens[0]
     command = " ".join(["gradysim", *(error.command_chain or ()), "--help"])
     expected = "--set before each KEY=VALUE" if "=" in first else f"an option before it, see {command}"
     return CycloptsPanel(f"{first} is one argument too many; expected {expected}")
+
+
+def _unknown_option(error: UnknownOptionError) -> str:
+    from gradysim.scenario.errors import nearest
+
+    option = error.token.keyword or error.token.value
+    known = [name for argument in error.argument_collection for name in argument.names if argument.parse]
+    text = f"Unknown option: {option}."
+    if suggestion := nearest(option.strip("-"), [name[2:] for name in known if name.startswith("--")]):
+        return f"{text} Did you mean --{suggestion}?"
+    if "--set" in known and option.startswith("--"):
+        key = f"*.nodes[*].protocol.{option[2:]}"
+        return f"{text} A parameter of the file is set by its key: --set '{key}=VALUE'"
+    return text
 
 
 app = App(
@@ -82,23 +80,46 @@ app = App(
     suppress_keyboard_interrupt=False,
     error_formatter=mistake_in_arguments,
 )
-app.command(run)
-app.command(check_file, name="check")
-app.command(view)
-app.command(make_project, name="new")
-app.command(list_runs, name="runs")
-app.command(print_status, name="status")
-app.command(print_means, name="means")
-app.command(compare)
-app.command(draw_figure, name="plot")
-app.command(pack_results, name="pack")
-app.command(verify_files, name="verify")
-app.command(climb_ladder, name="ladder")
-app.command(desynchronize_timers, name="desync")
-app.command(find_breaking_level, name="bisect")
-app.command(list_keys, name="keys")
-app.command(import_file, name="import")
-app.command(calibrate_power, name="calibrate")
+app.register_install_completion_command(help="Install completion for this shell, and end.")
+
+EXAMPLES: dict[str, dict[str, tuple[Callable[..., int], str]]] = {
+    "Write": {
+        "new": (make_project, "gradysim new swarm"),
+        "check": (check_file, "gradysim check swarm.ini -c Study"),
+        "keys": (list_keys, "gradysim keys communicationRange"),
+        "calibrate": (calibrate_power, "gradysim calibrate swarm.ini --range 50m"),
+        "import": (import_file, "gradysim import omnetpp.ini -o imported"),
+    },
+    "Run": {
+        "run": (run, "gradysim run swarm.ini -c Study --jobs 2 --result-dir results"),
+        "runs": (list_runs, "gradysim runs swarm.ini -c Study"),
+        "status": (print_status, "gradysim status swarm.ini -c Study --result-dir results"),
+    },
+    "Look": {
+        "view": (view, "gradysim view swarm.ini -c Study --run 3"),
+    },
+    "Evaluate": {
+        "means": (print_means, "gradysim means results --metric 'station heard'"),
+        "compare": (compare, "gradysim compare results --by mode"),
+        "plot": (draw_figure, "gradysim plot results --x jitter --metric 'station heard' -o heard.pdf"),
+        "pack": (pack_results, "gradysim pack results --remove"),
+        "verify": (verify_files, "gradysim verify results"),
+    },
+    "Find weaknesses": {
+        "ladder": (climb_ladder, "gradysim ladder swarm.ini --metric 'station heard' -o ladder.png"),
+        "bisect": (find_breaking_level, "gradysim bisect swarm.ini --assert 'station heard >= 100'"),
+        "desync": (desynchronize_timers, "gradysim desync swarm.ini"),
+    },
+}
+"""{group: {command: its function and an example}}, in the order of the help."""
+
+for _group, _commands in EXAMPLES.items():
+    _shown = Group.create_ordered(_group)
+    for _name, (_function, _example) in _commands.items():
+        app.command(_function, name=_name, group=_shown, help_epilogue=f"Example: {_example}")
+_options = Group.create_ordered("Options")
+for _flag in ("--help", "--version", "--install-completion"):
+    app[_flag].group = _options
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -4,7 +4,7 @@ A wheel has `configs` and `examples` in the package. An editable installation us
 """
 
 import re
-import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import gradysim
@@ -25,6 +25,12 @@ _FILES = {
 
 NAMES = tuple(_FILES)
 
+_FOLDER = re.compile(r"(?<![\w/.])(?:\.\./)*(?:configs/(?:town/)?|examples/(?:reference/)?)(?=\w)")
+"""Folders of the repository that a copy does not have."""
+
+_SCENARIOS = re.compile(r"""parents\[2\] / "configs\"""")
+"""The folder of the scenarios, seen from that of a script."""
+
 _COMMAND = re.compile(r"^#     ((?:gradysim|python) .*)$", re.MULTILINE)
 
 
@@ -43,16 +49,26 @@ def subject(name: str) -> str:
 
 
 def commands(name: str) -> list[str]:
-    """Return the commands in the head of the .ini file, with their comments."""
-    return _COMMAND.findall(_text(name))
+    """Return the commands in the head of the .ini file, with their comments, as they are run in a copy."""
+    return [_in_copy(command) for command in _COMMAND.findall(_text(name))]
+
+
+def files_of(name: str) -> Iterator[str]:
+    """Yield the paths of an example's files in the repository, and in a wheel below the package."""
+    for path in _FILES[name]:
+        source = _root() / path
+        for file in source.rglob("*.py") if source.is_dir() else [source]:
+            yield file.relative_to(_root()).as_posix()
 
 
 def copy_files(name: str, directory: Path) -> None:
-    """Copy the files of an example into an existing directory. Raises OSError."""
-    for path in _FILES[name]:
-        source, target = _root() / path, directory / path
+    """Copy the files of an example into an existing directory: its .ini file at the top. Raises OSError."""
+    for path in files_of(name):
+        target = directory / _in_copy(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        if source.is_dir():
-            shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__"))
-        else:
-            shutil.copyfile(source, target)
+        target.write_text(_in_copy((_root() / path).read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def _in_copy(text: str) -> str:
+    """Return a text of the repository as a copy has it, with other paths of files."""
+    return _SCENARIOS.sub("parents[1]", _FOLDER.sub("", text))

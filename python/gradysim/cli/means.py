@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO
 from cyclopts import Parameter
 
 from gradysim.cli.errors import OK, say_mistake
-from gradysim.cli.options import ResultsArgument
+from gradysim.cli.options import Names, ResultsArgument
 from gradysim.cli.study import check_quantities, read_study, warn_of_mixed_runs
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def print_means(
             " any single one. Default: all but numbers of the run itself, such as `cpu_s` and `events`.",
         ),
     ],
+    metric: Annotated[Names, Parameter(help="The same as QUANTITY, as other commands have it.")] = (),
     as_csv: Annotated[
         bool, Parameter(name="--csv", negative="", help="Print CSV, with all digits, for other programs.")
     ] = False,
@@ -41,9 +42,10 @@ def print_means(
     from gradysim.scenario.errors import ConfigError
 
     try:
+        wanted = (*quantities, *metric)
         results = read_study(directory)
-        found = means(results, quantities or None)
-        check_quantities(quantities, (mean.quantity for mean in found), directory, results.quantities)
+        found = means(results, wanted or None)
+        check_quantities(wanted, (mean.quantity for mean in found), directory, results.quantities)
     except (ConfigError, OSError) as mistake:
         return say_mistake(mistake)
     warn_of_mixed_runs(directory, results)

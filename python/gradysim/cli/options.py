@@ -25,6 +25,7 @@ ResultDirArgument = Annotated[Path, Parameter(name="DIR", help="The directory of
 ResultsArgument = Annotated[
     Path, Parameter(name="DIR", help="The directory of `run --result-dir`, or a file of `gradysim pack`.")
 ]
+ResultDirOption = Annotated[Path, Parameter(help="The directory of `run --result-dir`.")]
 RunsOption = Annotated[
     str | None,
     Parameter(alias="-r", help="Run numbers such as 0..3,5; all runs of the configuration by default."),
@@ -75,7 +76,7 @@ class PlotOptions:
     x: str | None = None
     """Variable of the x axis: one of `${name=...}` in the .ini file, config or mode."""
 
-    y: str | None = None
+    metric: Annotated[str | None, Parameter(name=("--metric", "--y"))] = None
     """Quantity, by the name that `gradysim means` prints, cpu_s or events. For outcomes: a kind of frames or
     messages, such as `broadcast frames`."""
 
@@ -262,7 +263,7 @@ class ViewOptions:
 
     config: ConfigOption = "General"
 
-    run: Annotated[Integer, Parameter(alias="-r")] = 0
+    run: Annotated[Integer, Parameter(name=("--run", "-r", "--runs"))] = 0
     """Number of the run."""
 
     mode: Mode = "integrated"
@@ -286,7 +287,7 @@ class ViewOptions:
 FigureOption = Annotated[
     Path | None,
     Parameter(
-        name=("--plot", "-o"),
+        name=("--output", "-o", "--plot"),
         help="Draw it to this file: .pdf, .png or .svg. Its numbers and their origin go to files of the same"
         " name that end in .csv and .json.",
     ),

@@ -27,7 +27,7 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
             columns=options.columns,
             log=options.log,
             x=options.x,
-            y=options.y,
+            y=options.metric,
             by=options.by or None,
             baseline=options.baseline,
             omit=options.omit,

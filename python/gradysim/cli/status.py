@@ -3,10 +3,13 @@
 from collections import defaultdict
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
 
 from gradysim.cli.earlier_results import State, states_of
 from gradysim.cli.errors import INCOMPLETE, OK, say_mistake
-from gradysim.cli.options import FileArgument, ResultDirArgument, RunOptions, StatusOptions
+from gradysim.cli.options import DEFAULT_DIR, FileArgument, ResultDirOption, RunOptions, StatusOptions
 from gradysim.cli.runs import check
 from gradysim.cli.study import check_directory
 
@@ -14,12 +17,19 @@ DEFAULTS = StatusOptions()
 
 
 def print_status(
-    directory: ResultDirArgument, file: FileArgument, /, *, options: StatusOptions = DEFAULTS
+    file: FileArgument,
+    earlier: Annotated[Path | None, Parameter(name="INI", show=False)] = None,
+    /,
+    *,
+    result_dir: ResultDirOption = DEFAULT_DIR,
+    options: StatusOptions = DEFAULTS,
 ) -> int:
     """List which runs of a configuration are done. The exit code is 0 only if all of them are."""
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_runs
 
+    # `status DIR FILE` is an earlier spelling.
+    file, directory = (file, result_dir) if earlier is None else (earlier, file)
     found: dict[tuple[State, tuple[str, ...]], list[int]] = defaultdict(list)
     try:
         check_directory(directory)

@@ -183,12 +183,19 @@ def _chosen(runs: Runs, kind: str, arguments: Mapping[str, Any]) -> tuple[Kind, 
     for name in chosen.needs:
         if name not in given:
             expected = ", ".join(runs.variables if name == "x" else chosen.names(runs))
-            raise ConfigError(f"--kind {kind} needs --{name}", expected=f"one of {expected}")
+            raise ConfigError(f"--kind {kind} needs --{_option(name)}", expected=f"one of {expected}")
     for name in given:
         if name not in (*chosen.needs, *chosen.takes):
-            takes = " and ".join(f"--{each}" for each in (*chosen.needs, *chosen.takes)) or "none of these"
-            raise ConfigError(f"--kind {kind} does not take --{name}", expected=takes)
+            takes = [f"--{_option(each)}" for each in (*chosen.needs, *chosen.takes)]
+            raise ConfigError(
+                f"--kind {kind} does not take --{_option(name)}",
+                expected=" and ".join(takes) or "none of these",
+            )
     return chosen, given
+
+
+def _option(argument: str) -> str:
+    return "metric" if argument == "y" else argument
 
 
 def save_numbers(

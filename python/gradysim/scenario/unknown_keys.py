@@ -111,12 +111,12 @@ def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> 
             continue
         assert found.parts is not None
         if not found.parts[0].matches(lookup.network):
-            errors.add(_unknown_name(found, groups, lookup.network))
+            errors.add(_unknown_name(found, groups, lookup))
         elif not names.has_match(name):
             group = next((group for group in groups if group.name == name.group), None)
             size = group.size_found if group else None
             if group is None or size is None:
-                errors.add(_unknown_name(found, groups, lookup.network))
+                errors.add(_unknown_name(found, groups, lookup))
             elif (
                 size.entry.rank < found.entry.rank or distribution_in(size.entry.text) or group.has_wrong_size
             ):
@@ -124,7 +124,7 @@ def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> 
             elif "${" in size.entry.source.value:
                 elsewhere.append(found.entry.source)
             else:
-                errors.add(_unknown_name(found, groups, lookup.network))
+                errors.add(_unknown_name(found, groups, lookup))
     return elsewhere
 
 
@@ -195,9 +195,17 @@ def _rests_of(kind: ProtocolAndInterfaces) -> list[str]:
 _PROTOCOL = "protocol."
 
 
-def _unknown_name(found: Found, groups: Sequence[Group], network: str) -> ConfigError:
+def _sizes_that_lack(lookup: Lookup, groups: Sequence[Group]) -> list[str]:
+    """Return `numUavs` and so on, of the groups that keys name and that have no number of nodes."""
+    known = {group.name for group in groups}
+    names = (found.parts[1].text.partition("[") for found in lookup.found if found.parts)
+    lacking = dict.fromkeys(name for name, bracket, _ in names if bracket and name not in known)
+    return [f"num{name[:1].upper()}{name[1:]}" for name in lacking]
+
+
+def _unknown_name(found: Found, groups: Sequence[Group], lookup: Lookup) -> ConfigError:
     """Return the error for a key that names no node and no part of the network."""
-    key, source = found.entry.key, found.entry.source
+    key, source, network = found.entry.key, found.entry.source, lookup.network
     if not found.parts or not found.parts[0].matches(network):
         return ConfigError(
             f"`{key}` does not begin with `*.` or `**.`, nor with the network's name `{network}.`",
@@ -211,6 +219,9 @@ def _unknown_name(found: Found, groups: Sequence[Group], network: str) -> Config
         size = f"*.num{base[3].upper()}{base[4:]}"
         expected = "a capital letter where the group's name begins"
         return NoSuchNodeError(problem, source, expected=expected, suggestion=size)
+    if len(found.parts) == 2 and (size := nearest(base, _sizes_that_lack(lookup, groups))):
+        expected = "the number of nodes of a group"
+        return NoSuchNodeError(problem, source, expected=expected, suggestion=f"*.{size}")
     match = nearest(base, [*(group.name for group in groups), *NETWORK_MODULES])
     group = next((group for group in groups if group.name == match), None)
     suggestion, hint = "", "" if group else _instead_of_module([base])

@@ -31,13 +31,19 @@ def test_its_runs_succeed(example, mode):
             assert main([*arguments, *settings]) == 0
 
 
+def test_its_scenarios_are_at_the_top(example, tmp_path):
+    (folder,) = tmp_path.iterdir()
+    assert (folder / f"{folder.name}.ini").is_file()
+    assert not [text for text in ("configs/", "examples/") for file in folder.rglob("*") if text in str(file)]
+
+
 @pytest.mark.verify
 @compiled
 def test_the_comparison_of_zigzag_runs_in_a_copy(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert main(["new", "zigzag", "--example"]) == 0
     done = subprocess.run(
-        [sys.executable, "examples/zigzag/compare.py", "ZigZag5"],
+        [sys.executable, "zigzag/compare.py", "ZigZag5"],
         cwd="zigzag",
         env=environment(),
         capture_output=True,

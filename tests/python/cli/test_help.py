@@ -1,12 +1,13 @@
 """`gradysim --help` and `--version`."""
 
 import re
+import shlex
 import subprocess
 import sys
 
 import pytest
 
-from gradysim.cli.app import app
+from gradysim.cli.app import EXAMPLES, app
 from python.cli.command import environment
 
 
@@ -22,12 +23,34 @@ def test_help_names_the_commands(gradysim):
 )
 def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
     shown = re.findall(
-        r"^│ *\*? *(--\S+)(?: (-\w))?.*? {2,}\w", gradysim(command, "--help").stdout, re.MULTILINE
+        r"^│ *\*? *(--\S+)(?: (--?\w+))?.*? {2,}\w", gradysim(command, "--help").stdout, re.MULTILINE
     )
     options = [argument.names for argument in app[command].assemble_argument_collection()]
     assert [tuple(filter(None, names)) for names in shown] == [
         names for names in options if names[0].startswith("--")
     ]
+
+
+@pytest.mark.parametrize("group", EXAMPLES)
+def test_each_command_has_an_example_that_it_accepts(gradysim, group):
+    for command, (function, example) in EXAMPLES[group].items():
+        called, _, _ = app.parse_args(shlex.split(example)[1:], exit_on_error=False)
+        assert called is function
+        assert f"Example: {example}" in gradysim(command, "--help").stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("--jitter", "5"), "*.nodes[*].protocol.jitter=VALUE"),
+        (("--job", "2"), "Did you mean --jobs?"),
+        (("--resutl-dir=o",), "Did you mean --result-dir?"),
+    ],
+)
+def test_an_unknown_option(gradysim, arguments, told):
+    done = gradysim("run", "test.ini", *arguments)
+    assert done.returncode == 2
+    assert told in done.stderr
 
 
 def test_help_loads_nothing_heavy(folder):

@@ -76,7 +76,7 @@ def test_runs_without_the_variable_are_left_out(gradysim, study):
     [
         (("--x", "limt", "--y", "events"), "did you mean `limit`?"),
         (("--x", "limit", "--y", "uavs said"), "did you mean `uavs[*] said`?"),
-        (("--x", "limit"), "--kind line needs --y"),
+        (("--x", "limit"), "--kind line needs --metric"),
         (("--kind", "outcomes"), "expected one of broadcast frames, broadcast messages"),
         (("--kind", "time"), "expected one of uavs[*] said, uavs[*] positionX, "),
         (

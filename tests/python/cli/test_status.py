@@ -1,7 +1,7 @@
 """`gradysim status`: which runs of a configuration are done."""
 
 RUN = ("run", "test.ini", "--mode", "prototype", "--quiet", "--set", "repeat=6", "--result-dir", "out")
-STATUS = ("status", "out", "test.ini", "--mode", "prototype", "--set", "repeat=6")
+STATUS = ("status", "test.ini", "--result-dir", "out", "--mode", "prototype", "--set", "repeat=6")
 
 
 def states(done):
@@ -24,6 +24,12 @@ def test_the_states_of_runs_are_listed(gradysim, folder):
         "failed or interrupted  1  1",
         "of other settings      1  3",
     ]
+
+
+def test_an_earlier_spelling_is_accepted(gradysim):
+    gradysim(*RUN)
+    done = gradysim("status", "out", "test.ini", *STATUS[4:])
+    assert (done.returncode, states(done)) == (0, {"done": "0..5"})
 
 
 def test_a_run_that_failed_is_not_done(gradysim):
