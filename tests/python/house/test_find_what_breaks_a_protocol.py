@@ -19,7 +19,7 @@ def test_its_command_prints_what_it_shows(
     (command,) = code_blocks(GUIDE, "sh")
     printed = shell(f"{command.rstrip()} || test $? = 1", clone)
     assert printed.split() == code_blocks(GUIDE, "text")[0].split()
-    for level in ("access", "interference"):
+    for level in ("radio", "interference"):
         assert (clone / f"results/ZigZag5Synchronised-{level}-#0.html").stat().st_size
 
 
