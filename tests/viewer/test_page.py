@@ -15,6 +15,7 @@ import pytest
 
 from gradysim.integrated.run import IntegratedRun
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+from gradysim.prototype.run import PrototypeRun
 from gradysim.replay import read_replay
 from gradysim.replay.sink import ReplayWriter
 from gradysim.scenario import load_scenarios
@@ -74,7 +75,7 @@ def test_a_node_says_what_it_did_not_notice(zigzag, browser):
     address = f"#t={time_s}&node=groundStation&filter=at:groundStation outcome:Below sensitivity"
     said = browser(zigzag, address=address, keys=["ArrowLeft"], until=f"&frame={unnoticed[-1]}&")
     assert re.search(rf"below sensitivity\s+{len(unnoticed):,} · ", said["text"])
-    assert re.search(r"\d others did not notice it \(below sensitivity\)", said["text"])
+    assert re.search(r"\d others? did not notice it \(below sensitivity\)", said["text"])
     assert re.search(r"distance\s+groundStation\s+below sensitivity\s", said["text"])
 
 
@@ -129,6 +130,35 @@ def test_a_frame_lost_behind_houses_says_which_ones(town, browser):
         in said["values"]["rows"]
     )
     assert "no power, needs -85.0 dBm" in said["values"]["rows"]
+
+
+def test_nodes_that_are_too_far_away_have_the_power_of_their_distance(browser, tmp_path):
+    far = ["sim-time-limit=600ms", "*.drones[*].mobility.initialX=1.2km", "*.drones[*].mobility.initialY=0m"]
+    (scenario,) = load_scenarios(ROOT / "configs/town/town.ini", "OpenField", overrides=far)
+    IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "far.html")).execute()
+    said = browser(
+        tmp_path / "far.html",
+        address="#t=0.5&node=drones[6]",
+        keys=["ArrowRight"],
+        until="3 others",
+        values={"rows": LOSS_ROWS},
+    )
+    assert said["values"]["rows"][:2] == [
+        "-88.7 dBm, needs -85.0 dBm: 3.7 dB short",
+        "1200 m take 101.7 dB of 13.0 dBm",
+    ]
+
+
+@pytest.mark.verify
+def test_in_prototype_mode_the_range_is_the_reason(browser, tmp_path):
+    (scenario,) = load_scenarios(
+        ROOT / "configs/zigzag.ini", "ZigZag5Synchronised", overrides=["sim-time-limit=3s"]
+    )
+    PrototypeRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
+    said = browser(
+        tmp_path / "run.html", keys=["ArrowRight", {"until": "&frame="}], values={"rows": LOSS_ROWS}
+    )
+    assert set(said["values"]["rows"]) == {"the range is 50.0 m"}
 
 
 def test_a_message_is_shown_and_found(browser, tmp_path):

@@ -8,6 +8,16 @@ export interface RunNode {
   group: string;
   protocol: string;
   range_m: number | null;
+  far_loss: FarLoss | null;
+}
+
+/** Path loss beyond the range of a node: `loss_at_1m_db` plus `exponent` times 10 log10 of the meters. */
+export interface FarLoss {
+  sensitivity_dbm: number;
+  loss_at_1m_db: number;
+  exponent: number;
+  /** Whether the loss of a frame may differ, by fading or antennas. */
+  is_mean: boolean;
 }
 
 export interface Obstacle {

@@ -4,9 +4,12 @@ import { Interferer } from "./air";
 import { outcomeColor, outcomeWords } from "./colors";
 import { button, countText, distanceText, durationText, make, timeText } from "./dom";
 import { causeText, destinationText, messageOf, senderOf } from "./frame_text";
-import { between, Loss, lossTexts, readLosses } from "./losses";
+import { between, farTexts, Loss, lossTexts, readLosses } from "./losses";
 import { Reception } from "./receptions";
 import { Frame, Replay, startOf } from "./replay";
+
+/** Of the nodes that a frame did not reach because of the distance. */
+const MOST_FAR = 5;
 
 /** Of a message. */
 const SHOWN_CHARACTERS = 200;
@@ -55,12 +58,13 @@ function describe(
     `${table.bytes[frame.row]} bytes${bitrateText(table.bitrate_bps[frame.row])}`,
   ];
   const noticed = frame.chunk.frames.receptions(frame.row);
-  const isThere = noticed.some(({ receiver }) => receiver === chosen);
-  if (chosen !== null && !isThere && replay.isUnnoticedAt(chosen, frame))
-    noticed.push({ receiver: chosen, outcome: replay.unnoticed });
+  const has = (node: number): boolean => noticed.some(({ receiver }) => receiver === node);
+  const far = new Set(replay.unnoticedBy(frame, MOST_FAR).filter((node) => !has(node)));
+  if (chosen !== null && !has(chosen) && replay.isUnnoticedAt(chosen, frame)) far.add(chosen);
+  for (const receiver of far) noticed.push({ receiver, outcome: replay.unnoticed });
   // The chosen node first, then losses of which more is known, then other losses.
   const rank = ({ receiver, outcome }: Reception): number =>
-    receiver === chosen ? 3 : losses.has(receiver) ? 2 : Number(replay.isLost[outcome]);
+    receiver === chosen ? 4 : losses.has(receiver) ? 3 : far.has(receiver) ? 0 : 1 + Number(replay.isLost[outcome]);
   const receptions = noticed
     .map((reception) => ({ ...reception, distance: between(replay, frame, sender, reception.receiver) }))
     .sort((a, b) => rank(b) - rank(a) || a.distance - b.distance);
@@ -68,11 +72,14 @@ function describe(
   for (const { receiver, outcome, distance: meters } of receptions) {
     const name = replay.run.outcomes[outcome];
     const loss = losses.get(receiver);
-    const words = make("span", { class: replay.isLost[outcome] ? "badge lost" : "badge" }, outcomeWords(name));
+    const isLost = replay.isLost[outcome] && !far.has(receiver);
+    const words = make("span", { class: isLost ? "badge lost" : "badge" }, outcomeWords(name));
     words.style.setProperty("--color", outcomeColor(name));
     const cells = [[replay.nameOf(receiver)], [words], [distanceText(meters)]];
     body.append(make("tr", {}, ...cells.map((cell) => make("td", {}, ...cell))));
-    for (const text of loss ? lossTexts(replay, frame, receiver, loss) : [])
+    const texts = loss ? lossTexts(replay, frame, receiver, loss) : [];
+    if (far.has(receiver)) texts.push(...farTexts(replay, frame, receiver));
+    for (const text of texts)
       body.append(make("tr", {}, make("td", { class: "muted", colspan: "3" }, text)));
   }
   const heads = ["at", "outcome", "distance"].map((head) => make("th", {}, head));

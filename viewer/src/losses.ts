@@ -61,6 +61,25 @@ export async function readLosses(replay: Replay, { chunk, row }: Frame): Promise
   return found;
 }
 
+/** Return the lines about a receiver that a frame did not reach because of the distance. */
+export function farTexts(replay: Replay, frame: Frame, receiver: number): string[] {
+  const { table } = frame.chunk.frames;
+  const sender = replay.nodes.get(senderOf(frame));
+  const needed = replay.nodes.get(receiver)?.far_loss?.sensitivity_dbm;
+  const sent = dbm(table.power_cdbm[frame.row]);
+  const distance = between(replay, frame, senderOf(frame), receiver);
+  if (sent === null) {
+    const range = sender?.range_m ?? null;
+    return range === null ? [] : [`the range is ${distanceText(range)}`];
+  }
+  if (!sender?.far_loss || needed === undefined || table.interface[frame.row] !== 0) return [];
+  const { loss_at_1m_db, exponent, is_mean } = sender.far_loss;
+  const pathLoss = loss_at_1m_db + exponent * 10 * Math.log10(distance);
+  const loss = { sent, power: sent - pathLoss, noise: null, interference: null, needed, pathLoss, gains: [] };
+  const text = needText({ ...loss, interferers: [] });
+  return [is_mean ? `about ${text}` : text, pathText({ ...loss, interferers: [] }, distanceText(distance))];
+}
+
 /** Return the lines that explain a loss. */
 export function lossTexts(replay: Replay, frame: Frame, receiver: number, loss: Loss): string[] {
   const with_ = loss.interferers.map(({ node, power }) => {
@@ -84,10 +103,11 @@ function needText({ power, noise, interference, needed }: Loss): string {
     const words = [`noise ${dbmText(noise)}`, ...(interference === null ? [] : [`interference ${dbmText(interference)}`])];
     parts.push(...words, `SINR ${had.toFixed(1)} dB`);
   }
+  let need = "needs";
   let short = "";
-  if (had !== null && (needed > had || noise === null))
-    short = needed - had < SHOWN ? ": just short" : `: ${(needed - had).toFixed(1)} dB short`;
-  return `${parts.join(", ")}, needs ${needed.toFixed(1)} ${noise === null ? "dBm" : "dB"}${short}`;
+  if (had !== null && noise !== null && needed <= had) need = "half of such frames need";
+  else if (had !== null) short = needed - had < SHOWN ? ": just short" : `: ${(needed - had).toFixed(1)} dB short`;
+  return `${parts.join(", ")}, ${need} ${needed.toFixed(1)} ${noise === null ? "dBm" : "dB"}${short}`;
 }
 
 /** "of 14.9 dBm, 247 m take 88.1 dB, West block takes 18.0 dB" */

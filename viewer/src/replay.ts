@@ -242,6 +242,24 @@ export class Replay {
     return chunk.frames.known[row] < receptions[row] && (recorded === null || recorded.includes(node[row]));
   }
 
+  /** Return the nearest nodes that did not notice a frame and have no loss of it, as far as that can be told. */
+  unnoticedBy(frame: Frame, most: number): number[] {
+    const { chunk, row } = frame;
+    const { node: sender, destination, receptions, unnoticed } = chunk.frames.table;
+    const all = receptions[row] + unnoticed[row];
+    if (chunk.frames.known[row] !== receptions[row]) return [];
+    if (all !== this.nodes.size - 1) return this.isUnnoticedAt(destination[row], frame) ? [destination[row]] : [];
+    const others = new Set(chunk.frames.receptions(row).map(({ receiver }) => receiver)).add(sender[row]);
+    const from = this.position(sender[row], frame);
+    return [...this.nodes.keys()]
+      .filter((node) => !others.has(node))
+      .map((node) => ({ node, place: this.position(node, frame) }))
+      .map(({ node, place }) => ({ node, meters: Math.hypot(...place.map((value, axis) => value - from[axis])) }))
+      .sort((a, b) => a.meters - b.meters)
+      .slice(0, most)
+      .map(({ node }) => node);
+  }
+
   /** Whether a node did not notice a frame, as far as that can be told. */
   isUnnoticedAt(node: number, { chunk, row }: Frame): boolean {
     const { frames } = chunk;

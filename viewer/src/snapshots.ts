@@ -177,7 +177,7 @@ function runOf({ x_range, y_range, z_range, nodes }: Greeting, first: Snapshot):
     recorded: null,
     nodes: first.nodes.map((id, place) => {
       const protocol = nodes[place].replace(/ \d+$/, "");
-      return { id, name: nodes[place], group: protocol, protocol, range_m: null };
+      return { id, name: nodes[place], group: protocol, protocol, range_m: null, far_loss: null };
     }),
     obstacles: [],
     outcomes: [],

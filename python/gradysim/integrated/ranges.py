@@ -2,16 +2,31 @@
 
 import contextlib
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
+from typing import TYPE_CHECKING, TypeVar
 
 from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, PowersForRanges, range_of
+from gradysim.integrated.two_ray_ground import TWO_RAY
+from gradysim.replay.description import FarLoss
 from gradysim.scenario.keys import has_radios
 from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.ranges import are_alike, ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
+
+if TYPE_CHECKING:
+    from gradysim._netsim import LinkBudget, RadioConfig
+
+Value = TypeVar("Value")
+
+_FAR_M = (1e5, 1e6)
+"""Distances beyond any change of the exponent, in meters."""
+
+_WITHOUT_CHANCE = ("FreeSpacePathLoss", "BreakpointPathLoss")
+
+_DBM_PER_DBW = 30
 
 
 def ranges_m(scenario: Scenario) -> list[float | None]:
@@ -19,10 +34,44 @@ def ranges_m(scenario: Scenario) -> list[float | None]:
 
     Between nodes like this one, over wlan[0]. None if the engine cannot compute it.
     """
+
+    def range_m(radio: "RadioConfig", budget: "LinkBudget | None") -> float | None:
+        return radio.communication_range_m if budget is None else range_of(budget, radio.tx_power_w)
+
+    return _of_each_radio(scenario, range_m)
+
+
+def far_losses(scenario: Scenario) -> list[FarLoss | None]:
+    """Return the path loss of each node's wlan[0] far away; None if it is not a power of the distance."""
+    medium = medium_config(scenario)
+    is_random = medium.path_loss not in _WITHOUT_CHANCE or medium.shadowing_standard_deviation_db > 0
+
+    def far_loss(radio: "RadioConfig", budget: "LinkBudget | None") -> FarLoss | None:
+        if budget is None or medium.path_loss in TWO_RAY:
+            return None
+        near_db, far_db = (-10 * math.log10(budget.mean_gain(distance_m)) for distance_m in _FAR_M)
+        exponent = (far_db - near_db) / 10
+        return FarLoss(
+            10 * math.log10(radio.sensitivity_w) + _DBM_PER_DBW,
+            near_db - 10 * exponent * math.log10(_FAR_M[0]),
+            exponent,
+            is_random or radio.antenna.typename != "IsotropicAntenna",
+        )
+
+    return _of_each_radio(scenario, far_loss)
+
+
+def _of_each_radio(
+    scenario: Scenario, compute: "Callable[[RadioConfig, LinkBudget | None], Value | None]"
+) -> "list[Value | None]":
+    """Return a number of the wlan[0] of each node: None if the message of a range does not fit into a frame.
+
+    `compute` takes the radio and the link between two nodes like this one; None on a medium without powers.
+    """
     netsim = load_netsim()
     medium = medium_config(scenario)
     powers = PowersForRanges(medium)
-    known: dict[object, float | None] = {}
+    known: dict[object, Value | None] = {}
     for spec in scenario.nodes:
         key = (id(spec.wlan[0]), spec.initial_position[2])
         if key in known:
@@ -30,15 +79,15 @@ def ranges_m(scenario: Scenario) -> list[float | None]:
         config = node_config(spec)
         radio = config.wlan[0].radio
         if not has_radios(medium.typename):
-            known[key] = radio.communication_range_m
+            known[key] = compute(radio, None)
             continue
         powers.set_powers(config, spec)
         try:
             budget = netsim.LinkBudget(medium, config, config, MESSAGE_BYTES, 0)
-        except netsim.ConfigError:  # the message does not fit into a frame
+        except netsim.ConfigError:
             known[key] = None
         else:
-            known[key] = range_of(budget, radio.tx_power_w)
+            known[key] = compute(radio, budget)
     return [known[id(spec.wlan[0]), spec.initial_position[2]] for spec in scenario.nodes]
 
 

@@ -21,7 +21,7 @@ from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.handlers import EngineHandlers
 from gradysim.integrated.native_protocols import NativeView, is_native
 from gradysim.integrated.network import build_network
-from gradysim.integrated.ranges import ranges_m
+from gradysim.integrated.ranges import far_losses, ranges_m
 from gradysim.integrated.real_time import RealTimeRun
 from gradysim.integrated.replay import EngineRecorder, VariableListener
 from gradysim.protocol.errors import NativeProtocolError, add_protocol_note
@@ -194,7 +194,9 @@ class IntegratedRun(ScenarioRun):
         return RealTimeRun(handlers.run_until, factor, lambda: handlers.held_up_s).advance
 
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
-        return describe(self._scenario, self.mode, recorded, ranges_m(self._scenario))
+        return describe(
+            self._scenario, self.mode, recorded, ranges_m(self._scenario), far_losses(self._scenario)
+        )
 
     def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
         assert self._recorder is not None

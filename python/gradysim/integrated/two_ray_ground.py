@@ -9,13 +9,13 @@ from gradysim.scenario.node_spec import NodeSpec
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig
 
-_TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
+TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
 
 
 def ground_hint(medium: "MediumConfig", nodes: Sequence[NodeSpec]) -> str:
     """Return advice for those of `nodes` that start on the ground, or ""."""
     low = [node.name for node in nodes if node.initial_position[2] == 0]
-    if not has_radios(medium.typename) or medium.path_loss not in _TWO_RAY or not low:
+    if not has_radios(medium.typename) or medium.path_loss not in TWO_RAY or not low:
         return ""
     start = "starts" if len(low) == 1 else f"and {len(low) - 1} more start"
     return (

@@ -1,6 +1,7 @@
 """The description of a run at the beginning of its replay."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from gradysim.replay.sink import ReplaySink
@@ -9,13 +10,35 @@ from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
 
 
+@dataclass(frozen=True)
+class FarLoss:
+    """Path loss beyond the range of a node, which the page uses where the record has no power.
+
+    Attributes:
+        sensitivity_dbm: Least power that this node receives.
+        loss_at_1m_db: Path loss in dB: this plus `exponent` times 10 log10 of the distance in meters.
+        exponent: Exponent of the distance.
+        is_mean: Whether the loss of a frame may differ, by fading or by antennas that do not face each other.
+    """
+
+    sensitivity_dbm: float
+    loss_at_1m_db: float
+    exponent: float
+    is_mean: bool
+
+
 def describe(
-    scenario: Scenario, mode: str, recorded: frozenset[int] | None, ranges_m: Sequence[float | None]
+    scenario: Scenario,
+    mode: str,
+    recorded: frozenset[int] | None,
+    ranges_m: Sequence[float | None],
+    far_losses: Sequence[FarLoss | None] = (),
 ) -> dict[str, Any]:
     """Return the description of a scenario for the page: its nodes, its obstacles, its origin.
 
     `recorded` are the ids of the nodes that are recorded in full; None for all. `ranges_m` are the distances
-    at which half of the messages of each node arrive without interference; None if unknown.
+    at which half of the messages of each node arrive without interference; None if unknown. `far_losses` are
+    those of each node, if it has one.
     """
     return {
         "file": scenario.file.name,
@@ -35,8 +58,11 @@ def describe(
                 "group": node.group,
                 "protocol": node.protocol.__name__,
                 "range_m": range_m,
+                "far_loss": None if far_loss is None else asdict(far_loss),
             }
-            for node, range_m in zip(scenario.nodes, ranges_m, strict=True)
+            for node, range_m, far_loss in zip(
+                scenario.nodes, ranges_m, far_losses or [None] * len(ranges_m), strict=True
+            )
         ],
         "obstacles": [_obstacle(obstacle) for obstacle in scenario.obstacles],
         "outcomes": OUTCOMES,

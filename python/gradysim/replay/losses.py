@@ -84,10 +84,12 @@ class Loss:
         if self.sinr_db is not None:
             parts.append(f"SINR {self.sinr_db:.1f} dB")
         unit = "dBm" if self.noise_dbm is None else "dB"
-        short = ""
-        if self.short_db is not None and (self.short_db > 0 or self.noise_dbm is None):
+        need, short = "needs", ""
+        if self.short_db is not None and self.noise_dbm is not None and self.short_db <= 0:
+            need = "half of such frames need"
+        elif self.short_db is not None:
             short = f" ({self.short_db:.1f} dB short)" if self.short_db >= _SHOWN_DB else " (just short)"
-        parts.append(f"needs {self.needed:.1f} {unit}{short}")
+        parts.append(f"{need} {self.needed:.1f} {unit}{short}")
         if self.interference_dbm is None:
             return f"{', '.join(parts)}: {self.path_words(names, obstacles, sender)}"
         return f"{', '.join(parts)}, interference {self.interference_dbm:.1f} dBm of {of}"

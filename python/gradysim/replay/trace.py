@@ -1,7 +1,7 @@
 """Prints the events at nodes, one line for each event, in the order of their times.
 
       1.042371  nodes[0]  timer    greet
-      1.042871  nodes[0]  tx       #7 broadcast to all: delivered at 2 of 3, 12 B, by timer greet, "hi"
+      1.042871  nodes[0]  tx       #7 broadcast to all: delivered at 2 of 3, 12 B, by timer greet, 'hi'
       1.043371  nodes[1]  rx       #7 broadcast from nodes[0]: delivered
       1.043371  nodes[1]  set      heard = 1
 
@@ -9,7 +9,6 @@ Columns: simulated time in seconds, node, event, details. #7 is the number of th
 `frames` in a replay of the same run.
 """
 
-import json
 import math
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -190,4 +189,4 @@ class Trace:
 
 def _quoted(message: str) -> str:
     """Return the first 200 characters of a message on one line."""
-    return json.dumps(message[:_SHOWN_TEXT], ensure_ascii=False) + ("…" if len(message) > _SHOWN_TEXT else "")
+    return repr(message[:_SHOWN_TEXT]) + ("…" if len(message) > _SHOWN_TEXT else "")

@@ -154,8 +154,8 @@ class Tested(Quiet):
 """
     lines, replay = traced([0], python)
     sent = [details for *_, event, details in lines if event == "tx"]
-    assert sent[0].endswith(r', "two\nlines"')
-    assert sent[1].endswith(f', "{"x" * 200}"…')
+    assert sent[0].endswith(r", 'two\nlines'")
+    assert sent[1].endswith(f", '{'x' * 200}'…")
     assert replay.table("frames")["text"][:2] == ["two\nlines", "x" * 300]
 
 
