@@ -30,7 +30,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-slow test-threads coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -60,6 +60,15 @@ test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
 	cmake -S cpp --preset tsan --log-level=WARNING
 	cmake --build build/tsan
 	ctest --test-dir build/tsan --parallel --output-on-failure --no-tests=error
+
+# Sanitizers come first: Python itself does not link them. What Python keeps until its end is not a leak.
+test-binding: build $(STAMPS)/test  ## Python tests of the engine, with the compiled module under AddressSanitizer and UndefinedBehaviorSanitizer.
+	cmake -S cpp --preset binding --log-level=WARNING \
+	  -DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
+	cmake --build build/binding
+	LD_PRELOAD="$$(for name in asan ubsan stdc++; do $${CXX:-g++} -print-file-name=lib$$name.so; done | xargs)" \
+	  ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 PYTHONPATH=tests $(BIN)/python -m pytest -p python.sanitized \
+	  --numprocesses=$(WORKERS) --dist=loadfile $(or $(ONLY),tests/python/integrated tests/python/conformance tests/python/encapsulator)
 
 fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engine, FUZZ_SECONDS=60 long.
 	cmake -S cpp --preset fuzz --log-level=WARNING

@@ -87,7 +87,9 @@ class RunTask:
         name = f"{self.study.config} run {number}"
         memory_bytes = checked_limit(options.memory)
         try:
-            with self._lock(number), ExitStack() as at_end:
+            with ExitStack() as at_end:
+                with self.interrupt.at_once():  # while it waits for a command that packs
+                    at_end.enter_context(self._lock(number))
                 with redirect_stdout(sys.stderr) if options.as_json else nullcontext(), chdir("."):
                     scenario = self.study[place]
                     check_outputs(scenario, options)
@@ -112,7 +114,7 @@ class RunTask:
         except RunLockedError as locked:
             print(f"{name}: {locked}; left out", file=sys.stderr)
             return LOCKED, None
-        except KeyboardInterrupt:  # while it was built
+        except KeyboardInterrupt:  # while it waited or was built
             return INTERRUPTED, None
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake), None

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from gradysim.cli.errors import INCOMPLETE
+from gradysim.cli.interrupt import STOPPING
 from python.cli.command import PROTOCOL, Gradysim, compiled, environment, objects, run_without
 from python.processes import session, wait_until
 
@@ -202,16 +203,17 @@ def test_without_its_last_worker_the_command_ends(folder: Path, scheduler: Sched
 
 
 @pytest.mark.verify
-def test_ctrl_c_does_not_wait_for_a_worker(folder: Path, scheduler: Scheduler) -> None:
+@pytest.mark.parametrize("number", STOPPING)
+def test_a_signal_does_not_wait_for_a_worker(folder: Path, scheduler: Scheduler, number: int) -> None:
     (worker,) = scheduler.start_workers(1)
     with command(folder, *ONE_ENDS, "--scheduler", scheduler.address) as process:
         wait_for_the_second_run(folder)
         worker.kill()
         worker.wait()
-        process.send_signal(signal.SIGINT)
+        process.send_signal(number)
         _, errors = process.communicate(timeout=60)
     ended = "General: 1 of 4 runs is done (0), 3 were under way (1..3)"
-    assert (process.returncode, errors.splitlines()[-1]) == (130, ended)
+    assert (process.returncode, errors.splitlines()[-1]) == (128 + number, ended)
 
 
 @compiled

@@ -130,3 +130,12 @@ def test_all_runs_stay_if_repetitions_are_the_outermost(grown):
     assert "80 of 84 runs are in out (0..79) and left out\n" in done.stderr
     assert [run["run"] for run in objects(done.stdout)] == [80, 81, 82, 83]
     assert {run["repetition"] for run in objects(done.stdout)} == {20}
+
+
+def test_status_has_all_runs_if_repetitions_are_the_outermost(gradysim):
+    settings = ("--set", "iteration-nesting-order=repetition, *", "--set", "*.uavs.count=${count=1, 2}")
+    arguments = ("test.ini", "--mode", "prototype", *settings)
+    gradysim("run", *arguments, "--quiet", "--result-dir", "out", "--set", "repeat=2")
+    done = gradysim("status", "out", *arguments, "--set", "repeat=3")
+    assert done.stdout.splitlines()[0] == "General: 4 of 6 runs are done in out"
+    assert "missing  2  4..5" in done.stdout

@@ -1,4 +1,8 @@
-"""Effect of SIGTERM, SIGHUP and SIGKILL on a command and its worker processes."""
+"""Effect of signals on commands and their worker processes.
+
+`test_view_ends.py` does the same for `gradysim view`, and `test_executors.py` for a study on Dask. Commands
+that only read and write files are interrupted at each of their system calls, by `test_faults.py`.
+"""
 
 import contextlib
 import json
@@ -7,19 +11,26 @@ import pty
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
+from gradysim.cli.interrupt import STOPPING
 from gradysim.replay.file import read_parts
-from python.cli.command import both_modes, environment, objects
+from gradysim.results.run_lock import all_runs_locked
+from python.cli.command import both_modes, compiled, environment, objects
 from python.processes import session, wait_until
+from python.thorough import some
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="it looks into /proc")
 
 ENDS_WITHIN_S = 3.0
 """Usually 0.4 s after SIGTERM and SIGHUP; longer on a busy machine."""
+
+MOST_LINES = 3
+"""That the command stops, which callback does not return, and which runs are missing."""
 
 PROTOCOLS = """
 import os
@@ -48,6 +59,13 @@ class Sleeps(Ready):
     def handle_timer(self, timer):
         super().handle_timer(timer)
         time.sleep(1000)
+
+
+class Building(Talker):
+    def __init__(self):
+        with open("ready", "ab") as file:
+            file.write(b"x")
+        time.sleep(1000)
 """
 
 Begin = Callable[..., subprocess.Popen[str]]
@@ -59,10 +77,13 @@ def begin(folder: Path) -> Iterator[Begin]:
     (folder / "signals.py").write_text(PROTOCOLS)
     begun = []
 
-    def begin(protocol: str, runs: int, *arguments: str, **options: object) -> subprocess.Popen[str]:
+    def begin(
+        protocol: str, runs: int, *arguments: str, command: str = "run", **options: object
+    ) -> subprocess.Popen[str]:
         name = f'*.uavs[*].protocol.class="signals.py:{protocol}"'
+        line = (command, "test.ini", "-c", "Endless", "--set", name, *arguments)
         process = subprocess.Popen(
-            [sys.executable, "-m", "gradysim", "run", "test.ini", "-c", "Endless", "--set", name, *arguments],
+            [sys.executable, "-m", "gradysim", *line],
             **{
                 "cwd": folder,
                 "env": environment(),
@@ -75,7 +96,7 @@ def begin(folder: Path) -> Iterator[Begin]:
         )
         begun.append(process)
         ready = folder / "ready"
-        wait_until(lambda: ready.exists() and ready.stat().st_size >= runs)
+        wait_until(lambda: not runs or (ready.exists() and ready.stat().st_size >= runs))
         assert process.poll() is None
         return process
 
@@ -84,6 +105,54 @@ def begin(folder: Path) -> Iterator[Begin]:
         with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, signal.SIGKILL)
         process.communicate()
+
+
+COMMANDS = {
+    "run": ("--mode", "prototype", "--quiet"),
+    "ladder": ("--metric", "uavs said", "-n", "2"),
+    "bisect": ("--assert", "uavs said >= 1"),
+    "desync": ("--metric", "uavs said", "-n", "2"),
+}
+STATES = {"building": "Building", "running": "Ready", "in a callback": "Spins"}
+TABLE = [
+    pytest.param(command, state, number, marks=[] if is_in_short else pytest.mark.verify)
+    for at, command in enumerate(COMMANDS)
+    for state in STATES
+    for number in STOPPING
+    if (command, state) != ("run", "in a callback")  # whose results have a test below
+    for is_in_short in [
+        state == ("running" if command != "run" else "building") and number == STOPPING[at % len(STOPPING)]
+    ]
+]
+"""`make test` has each command with one state and signal."""
+
+
+@compiled
+@pytest.mark.parametrize(("command", "state", "number"), TABLE)
+def test_each_command_ends_in_each_state(begin, command, state, number):
+    process = begin(STATES[state], 1, *COMMANDS[command], command=command)
+    assert_ends(process, number)
+
+
+@pytest.mark.parametrize("number", some(STOPPING))
+def test_a_command_that_waits_for_a_lock_ends(begin, folder, number):
+    (folder / "out").mkdir()
+    with all_runs_locked(folder / "out"):
+        process = begin("Ready", 0, "--mode", "prototype", "--quiet", "--result-dir", "out")
+        wait_until(lambda: len(session(process.pid)) == 1 + 2)  # the run waits, and has a guardian
+        assert_ends(process, number)
+
+
+def assert_ends(process: subprocess.Popen[str], number: int) -> None:
+    """Send a signal to a command, and check that it ends soon, says so in few lines and leaves no process."""
+    began = time.monotonic()
+    process.send_signal(number)
+    _, errors = process.communicate(timeout=20)
+    assert process.returncode == 128 + number
+    assert time.monotonic() - began < ENDS_WITHIN_S
+    assert session(process.pid) == []
+    assert "stop" in errors
+    assert len(errors.strip().splitlines()) <= MOST_LINES
 
 
 @pytest.mark.parametrize("protocol", ["Spins", "Sleeps"])
