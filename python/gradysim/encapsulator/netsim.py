@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import CheckedProvider
-from gradysim.encapsulator.validation import geo_target
+from gradysim.encapsulator.validation import addressed_by_id, geo_target, id_of_name
 from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
     MobilityCommand,
@@ -27,7 +28,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", bound=IProtocol)
 
-_SAME_IN_THE_ENGINE = sorted(IProvider.__abstractmethods__ - {"send_mobility_command"})
+_SAME_IN_THE_ENGINE = sorted(
+    IProvider.__abstractmethods__ - {"send_communication_command", "send_mobility_command"}
+)
 
 
 def _forwarding(attribute: str, method: str) -> Callable[..., Any]:
@@ -57,13 +60,14 @@ class NetsimProvider(CheckedProvider):
         reference_coordinates: Position,
         nodes: Sequence["Node"] = (),
         handlers: Mapping[str, Any] | None = None,
+        ids_by_name: Mapping[str, int] | None = None,
         steer: Callable[[MobilityCommand], None] | None = None,
     ) -> None:
         """Serve the protocol of `node`. `nodes` are all of the network, for `node_positions`.
 
         The random numbers follow from the run's seed and the node's id. `reference_coordinates` are (latitude
-        deg, longitude deg, altitude m) of the scene's origin. `handlers` watch the run, by label. `steer`
-        carries out mobility commands instead of the engine.
+        deg, longitude deg, altitude m) of the scene's origin. `handlers` watch the run, by label.
+        `ids_by_name` are those of all nodes. `steer` carries out mobility commands instead of the engine.
         """
         self._node = node
         self._nodes = nodes
@@ -74,22 +78,34 @@ class NetsimProvider(CheckedProvider):
         # Each attribute hides the method of the class: a call goes straight to the engine.
         for name in _SAME_IN_THE_ENGINE:
             setattr(self, name, getattr(node, name))
+        self._ids_by_name = {} if ids_by_name is None else ids_by_name
+        self._send = node.send_communication_command
         if steer is not None:
             setattr(self, "send_mobility_command", steer)  # noqa: B010 (hides a method, as above)
+
+    def id_of(self, name: str) -> int:
+        """Return the id of the node of that name. CommunicationException if there is none."""
+        return id_of_name(name, self._ids_by_name)
 
     @property
     def random(self) -> Random:
         """The protocol's own random numbers: the same for the same seed and node, in both modes."""
         return self._random
 
-    # The abstract methods of IProvider. Only mobility commands without an autopilot get here; other calls go
-    # to the attributes of the instance, which __init__ sets. These methods are for calls through super().
+    # The abstract methods of IProvider. Messages and, without an autopilot, mobility commands get here. Other
+    # calls go to the attributes of the instance, which __init__ sets. These methods are for calls through
+    # super().
 
-    send_communication_command = _forwarding("_node", "send_communication_command")
     schedule_timer = _forwarding("_node", "schedule_timer")
     cancel_timer = _forwarding("_node", "cancel_timer")
     current_time = _forwarding("_node", "current_time")
     get_id = _forwarding("_node", "get_id")
+
+    def send_communication_command(self, command: CommunicationCommand) -> None:
+        """Send a message to the id of its destination, also if the command has the name."""
+        if isinstance(getattr(command, "destination", None), str):
+            command = addressed_by_id(command, self._ids_by_name)
+        self._send(command)
 
     def send_mobility_command(self, command: MobilityCommand) -> None:
         """Steer the node. Geographic coordinates are taken relative to the origin of the scene."""

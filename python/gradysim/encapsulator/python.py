@@ -8,6 +8,7 @@ from typing import Any
 from gradysim.encapsulator.interface import IEncapsulator
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import CheckedProvider
+from gradysim.encapsulator.validation import id_of_name
 from gradysim.protocol.errors import add_protocol_note
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand
@@ -83,6 +84,10 @@ class PythonProvider(CheckedProvider):
         """Return the id of the node."""
         node_id: int = self.node.id
         return node_id
+
+    def id_of(self, name: str) -> int:
+        """Return the id of the node of that name. CommunicationException if there is none."""
+        return id_of_name(name, getattr(self.node, "ids_by_name", {}))
 
     @property
     def random(self) -> Random:

@@ -9,13 +9,14 @@ those of `gradys_embedded.protocol`, are valid, too.
 """
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from difflib import get_close_matches
 from enum import Enum
 from typing import Any
 
 from gradysim.protocol.defaults import MOST_INTERFACES
 from gradysim.protocol.errors import CommunicationException, MasslessMobilityException
-from gradysim.protocol.messages.communication import CommunicationCommandType
+from gradysim.protocol.messages.communication import CommunicationCommandType, SendMessageCommand
 from gradysim.protocol.messages.mobility import MobilityCommandType, SetVelocityMobilityCommand
 from gradysim.protocol.plain_value import readable_number
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position, geo_to_cartesian
@@ -75,6 +76,31 @@ def checked_destination(destination: object) -> int:
     if number == destination and 0 <= number <= _LARGEST_ID:
         return int(number)
     raise CommunicationException(f"destination must be an int, the id of a node, got {destination!r}")
+
+
+def id_of_name(name: str, ids_by_name: Mapping[str, int]) -> int:
+    """Return the id of a node. CommunicationException, with the nearest name, if no node is called so."""
+    if name in ids_by_name:
+        return ids_by_name[name]
+    if not ids_by_name:
+        raise CommunicationException(f"no node is called {name!r}: the nodes have no names; expected an id")
+    similar = get_close_matches(name, ids_by_name, n=1)
+    expected = f"expected one such as {next(iter(ids_by_name))!r}"
+    if similar:
+        expected = f"did you mean {similar[0]!r}?"
+    raise CommunicationException(f"no node is called {name!r}; {expected}")
+
+
+def addressed_by_id(command: Any, ids_by_name: Mapping[str, int]) -> Any:
+    """Return a command to the id of its destination if it has a name. CommunicationException as `id_of_name`.
+
+    Invalid commands are returned as they are, for `wrong_communication`.
+    """
+    name, kind = getattr(command, "destination", None), getattr(command, "command_type", None)
+    if not isinstance(name, str) or kind != CommunicationCommandType.SEND:
+        return command
+    destination = id_of_name(name, ids_by_name)
+    return SendMessageCommand(command.message, destination, interface=getattr(command, "interface", 0))
 
 
 def _wrong_destination(destination: object, node_id: int, ids: Collection[int]) -> str:

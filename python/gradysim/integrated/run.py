@@ -119,6 +119,7 @@ class IntegratedRun(ScenarioRun):
     def _make_protocols(self) -> None:
         scenario = self._scenario
         name = run_name(scenario, self.mode)
+        ids_by_name = {spec.name: spec.id for spec in scenario.nodes}
         for spec, node in zip(scenario.nodes, self._nodes, strict=True):
             recorder = self._recorders.get(node.id)
             tell_variable = self._variable_listener(node)
@@ -135,6 +136,7 @@ class IntegratedRun(ScenarioRun):
                 reference_coordinates=scenario.reference_coordinates,
                 nodes=self._nodes,
                 handlers=self._handlers.by_label,
+                ids_by_name=ids_by_name,
                 steer=self._autopilots.steering_of(node.id),
             )
             provider.run_name = name

@@ -211,12 +211,12 @@ class _NodeLog:
         self, send: Callable[[CommunicationCommand], None], command: CommunicationCommand
     ) -> None:
         send(command)
-        is_broadcast = command.command_type == CommunicationCommandType.BROADCAST
-        self._add(
-            "send",
-            BROADCAST if is_broadcast else int(command.destination or 0),
-            self._log.text(command.message),
-        )
+        destination = command.destination or 0
+        if command.command_type == CommunicationCommandType.BROADCAST:
+            destination = BROADCAST
+        elif isinstance(destination, str):
+            destination = self._provider.id_of(destination)
+        self._add("send", int(destination), self._log.text(command.message))
 
     def _send_mobility_command(
         self, send: Callable[[MobilityCommand], None], command: MobilityCommand

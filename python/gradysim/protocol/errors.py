@@ -25,10 +25,14 @@ def add_protocol_note(
 ) -> None:
     """Add a note with node, simulated time (s) and callback to an exception that a protocol has raised.
 
-    A KeyboardInterrupt gets the note, too: it names a callback that does not return.
+    A KeyboardInterrupt gets the note, too: it names a callback that does not return. For a constructor that
+    uses `self.provider`, the note says what to do instead.
 
     In prototype mode `PythonEncapsulator` calls this. The engine (`PythonProtocol::check`) calls it by
     `NetsimEncapsulator`. For native protocols `integrated/run.py` does.
     """
     label = f"{protocol.__name__} {node_id}"
-    exception.add_note(f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time")
+    note = f"in {callback} of node {node_id} ({label}) at {time_s:.12g} s of simulated time"
+    if callback == "__init__" and isinstance(exception, AttributeError) and exception.name == "provider":
+        note += "; the constructor has no provider yet: use it in `initialize`"
+    exception.add_note(note)

@@ -8,6 +8,7 @@ from abc import ABC, abstractmethod
 from random import Random
 from typing import Any, Self, TypeGuard
 
+from gradysim.protocol.errors import CommunicationException
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
@@ -72,6 +73,18 @@ class IProvider(ABC):
     def get_id(self) -> int:
         """Id of this node, unique in the network."""
 
+    def id_of(self, name: str) -> int:
+        """Return the id of the node of that name.
+
+        Args:
+            name: As in the .ini file, `station` or `uavs[2]`, or as the script passed it to `add_node`.
+
+        Raises:
+            CommunicationException: No node has that name. The message has the nearest one. Environments
+                outside of simulations may not know any.
+        """
+        raise CommunicationException(f"the names of the nodes are unknown here, got {name!r}; expected an id")
+
     @property
     def random(self) -> Random:
         """The node's own random stream: the same in every run with the same seed.
@@ -85,7 +98,7 @@ class IProvider(ABC):
 
 
 class IProtocol(ABC):
-    """The behavior of one node.
+    """The behavior of one node. `handle_telemetry` and `finish` are optional.
 
     The constructor takes no arguments and runs before `provider` is set; use the provider from `initialize`
     on. The order in which the nodes' `initialize` and `finish` are called is not specified.
@@ -115,16 +128,19 @@ class IProtocol(ABC):
     def handle_packet(self, message: str) -> None:
         """Called when a message of another node has been received."""
 
-    @abstractmethod
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Called periodically with the state of the vehicle."""
+    def handle_telemetry(self, telemetry: Telemetry) -> None:  # noqa: B027 (optional)
+        """Called periodically with the state of the vehicle. By default, it does nothing."""
 
-    @abstractmethod
-    def finish(self) -> None:
-        """Called once, after the last event of the run."""
+    def finish(self) -> None:  # noqa: B027 (optional)
+        """Called once, after the last event of the run. By default, it does nothing."""
 
 
-CALLBACKS = ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
+_REQUIRED = ("initialize", "handle_timer", "handle_packet")
+
+OPTIONAL_CALLBACKS = ("handle_telemetry", "finish")
+"""Names of the callbacks that a protocol may leave out."""
+
+CALLBACKS = (*_REQUIRED, *OPTIONAL_CALLBACKS)
 """Names of the callbacks of a protocol."""
 
 
@@ -132,11 +148,11 @@ def is_protocol_class(value: object) -> TypeGuard[type[IProtocol]]:
     """Return whether `value` is a class with the structure of a protocol, abstract or not.
 
     It need not derive from `IProtocol`: `gradys_embedded.protocol` has an interface of its own with the same
-    methods. Such an interface itself, which declares all callbacks as abstract, is not a protocol.
+    methods. Such an interface itself, which declares the required callbacks as abstract, is not a protocol.
     """
     if not isinstance(value, type) or not all(
         callable(getattr(value, name, None)) for name in ("instantiate", *CALLBACKS)
     ):
         return False
-    declared = (vars(value).get(name) for name in CALLBACKS)
+    declared = (vars(value).get(name) for name in _REQUIRED)
     return not all(getattr(method, "__isabstractmethod__", False) for method in declared)

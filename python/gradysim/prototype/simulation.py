@@ -71,7 +71,8 @@ def build_simulation(
     for handler in given.values():
         builder.add_handler(handler)
     for spec in scenario.nodes:
-        builder.add_node(parametrize(spec.protocol, spec.protocol_parameters), spec.initial_position)
+        protocol = parametrize(spec.protocol, spec.protocol_parameters)
+        builder.add_node(protocol, spec.initial_position, spec.name)
     name = run_name(scenario, "prototype")
     recorded = recorders or {}
 

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from gradysim.protocol.interface import IProtocol, is_protocol_class
+from gradysim.protocol.interface import OPTIONAL_CALLBACKS, IProtocol, is_protocol_class
 from gradysim.scenario.errors import BadValue, nearest, nearest_file
 from gradysim.scenario.native_protocols import is_native_name
 from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
@@ -126,14 +126,34 @@ def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
             why = "is not a protocol but the interface that protocols derive from"
         raise BadValue(f"`{name}` in {place} {why}", others)
     protocol: type[IProtocol] = cls
-    if inspect.isabstract(protocol):
-        missing = sorted(protocol.__abstractmethods__)
-        own = [key for key in dir(protocol) if not key.startswith("_") and key not in dir(IProtocol)]
+    if missing := _missing_callbacks(protocol):
+        own = _own_names(protocol)
         alike = [meant for method in missing if (meant := nearest(method, own, strict=True))]
         hint = f"; it has {_calls(alike)}" if alike else ""
         raise BadValue(f"`{name}` in {place} is not complete, it lacks {_calls(missing)}", hint)
     check_contract(protocol)
     return protocol
+
+
+def _missing_callbacks(protocol: type[IProtocol]) -> list[str]:
+    """Return the callbacks that a protocol must define, and optional ones whose name it has misspelled."""
+    methods = [key for key in _own_names(protocol) if callable(getattr(protocol, key))]
+    left_out = [
+        callback
+        for callback in OPTIONAL_CALLBACKS
+        if inspect.getattr_static(protocol, callback) is vars(IProtocol)[callback]
+    ]
+    # Names that are longer by more than a letter, such as `finished`, are those of other methods.
+    misspelled = [
+        callback
+        for callback in left_out
+        if nearest(callback, [name for name in methods if abs(len(name) - len(callback)) <= 1], strict=True)
+    ]
+    return sorted([*getattr(protocol, "__abstractmethods__", ()), *misspelled])
+
+
+def _own_names(protocol: type[IProtocol]) -> list[str]:
+    return [key for key in dir(protocol) if not key.startswith("_") and key not in dir(IProtocol)]
 
 
 def _class_meant(reference: str, folder: Path) -> str:

@@ -55,6 +55,7 @@ class SimulationBuilder:
         self._configuration = checked_configuration(configuration, SimulationConfiguration)
         self._handlers: dict[str, INodeHandler] = {}
         self._nodes: list[tuple[type[IProtocol], Position]] = []
+        self._ids_by_name: dict[str, int] = {}
         self._prepare_node: Callable[[Node[Any]], None] | None = None
 
     def prepare_nodes(self, prepare_node: Callable[[Node[Any]], None]) -> "SimulationBuilder":
@@ -67,16 +68,26 @@ class SimulationBuilder:
         self._handlers[label_of(handler)] = handler
         return self
 
-    def add_node(self, protocol: type[IProtocol], position: Position) -> int:
-        """Add a node at (x, y, z) in meters with a protocol of this class. Return its id: 0, then 1, ..."""
+    def add_node(self, protocol: type[IProtocol], position: Position, name: str = "") -> int:
+        """Add a node at (x, y, z) in meters with a protocol of this class. Return its id: 0, then 1, ...
+
+        Protocols can send to it by its `name`, such as `SendMessageCommand(text, "base")`. Raises ValueError
+        if another node has the name.
+        """
+        if name in self._ids_by_name:
+            raise ValueError(f"there is a node with the name {name!r} already")
         place = checked_point("the position of a node", position, ValueError)
         self._nodes.append((checked_protocol_class(protocol), place))
-        return len(self._nodes) - 1
+        identifier = len(self._nodes) - 1
+        if name:
+            self._ids_by_name[name] = identifier
+        return identifier
 
     def build(self) -> Simulator:
         """Make the simulation: inject the event loop into the handlers, then create the nodes in order."""
         simulator = Simulator(self._handlers, self._configuration)
         simulator.prepare_node = self._prepare_node
+        simulator.ids_by_name = dict(self._ids_by_name)
         for identifier, (protocol, position) in enumerate(self._nodes):
             simulator.create_node(position, protocol, identifier)
         return simulator

@@ -9,6 +9,7 @@ import weakref
 from collections.abc import Callable, Iterable, Mapping
 from datetime import timedelta
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from gradysim.encapsulator.python import PythonEncapsulator
@@ -46,11 +47,13 @@ class Simulator:
         seed: Seed of all random numbers of the run.
         writes_log: Whether it writes log lines itself, as its configuration says.
         prepare_node: Called with each node, if it is set, after its provider and before its protocol is made.
+        ids_by_name: Ids of the nodes that have a name; set it before they are made.
     """
 
     seed: int
     writes_log = True
     prepare_node: Callable[[Node[Any]], None] | None = None
+    ids_by_name: Mapping[str, int] = MappingProxyType({})
 
     def __init__(self, handlers: Mapping[str, INodeHandler], configuration: SimulationConfiguration) -> None:
         """Make a simulation without nodes. ValueError if a value of the configuration is out of range."""
@@ -121,6 +124,7 @@ class Simulator:
         node.id = identifier
         node.position = checked_point("the position of a node", position, ValueError)
         node.seed = self.seed
+        node.ids_by_name = self.ids_by_name
         node.protocol_encapsulator = PythonEncapsulator(node, **self._handlers)
         node.protocol_encapsulator.provider.initial_position = node.position
         if self.prepare_node is not None:

@@ -212,9 +212,7 @@ def test_a_plugin_that_re_binds_a_callback_is_honoured():
     assert pair.calls() == [(0.0, "initialize"), (2.0, "finish")]
 
 
-@pytest.mark.parametrize(
-    "name", ["send_communication_command", "schedule_timer", "cancel_timer", "current_time", "get_id"]
-)
+@pytest.mark.parametrize("name", ["schedule_timer", "cancel_timer", "current_time", "get_id"])
 def test_a_call_goes_straight_to_the_engine(name):
     encapsulator = Pair().encapsulators[0]
     assert getattr(encapsulator.provider, name) == getattr(encapsulator._node, name)

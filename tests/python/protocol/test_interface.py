@@ -1,6 +1,7 @@
 import pytest
 
-from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.errors import CommunicationException
+from gradysim.protocol.interface import IProtocol, IProvider, is_protocol_class
 from python.quiet_protocol import Quiet
 
 
@@ -42,15 +43,29 @@ def test_the_constructor_runs_before_there_is_a_provider():
     assert Curious.instantiate(SilentProvider()).had_provider is False
 
 
-@pytest.mark.parametrize(
-    "missing", ["initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish"]
-)
-def test_a_protocol_must_have_every_callback(missing):
+@pytest.mark.parametrize("missing", ["initialize", "handle_timer", "handle_packet"])
+def test_a_protocol_must_have_every_required_callback(missing):
     methods = {name: (lambda self, *arguments: None) for name in vars(Quiet) if name[0] != "_"}
     del methods[missing]
     incomplete = type("Incomplete", (IProtocol,), methods)
     with pytest.raises(TypeError, match=missing):
         incomplete()
+
+
+def test_a_protocol_may_leave_out_the_others():
+    methods = dict.fromkeys(("initialize", "handle_timer", "handle_packet"), lambda self, *arguments: None)
+    complete = type("Complete", (IProtocol,), methods)()
+    complete.handle_telemetry(None)
+    complete.finish()
+
+
+def test_the_interface_itself_is_not_a_protocol():
+    assert not is_protocol_class(IProtocol)
+
+
+def test_a_provider_that_knows_no_names_says_so():
+    with pytest.raises(CommunicationException, match="'base'; expected an id"):
+        SilentProvider().id_of("base")
 
 
 def test_a_provider_that_knows_no_runs_has_no_name_for_them():

@@ -78,6 +78,33 @@ def test_missing_methods_and_methods_that_look_like_them_are_named(folder: Any, 
     assert error.hint == "; it has handle_packets()"
 
 
+REQUIRED = """from gradysim.protocol.interface import IProtocol
+class Slips(IProtocol):
+    def initialize(self): ...
+    def handle_timer(self, timer): ...
+    def handle_packet(self, message): ...
+"""
+
+
+@pytest.mark.parametrize(
+    ("slip", "callback"), [("handle_telemetri", "handle_telemetry"), ("finis", "finish")]
+)
+def test_an_optional_callback_with_a_typing_error_is_named(
+    folder: Any, error_of: Any, slip: str, callback: str
+) -> None:
+    folder.write("slips.py", f"{REQUIRED}    def {slip}(self, *_): ...\n")
+    error = error_of("slips.py:Slips")
+    assert error.problem.endswith(f"it lacks {callback}()")
+    assert error.hint == f"; it has {slip}()"
+
+
+def test_other_methods_may_be_called_like_an_optional_callback(folder: Any) -> None:
+    folder.write(
+        "longer.py", f"{REQUIRED}    def finished(self): ...\n    def handle_telemetry_data(self): ...\n"
+    )
+    assert ProtocolLoader().load("longer.py:Slips", folder.path).__name__ == "Slips"
+
+
 @pytest.mark.parametrize(
     ("text", "error", "line"),
     [

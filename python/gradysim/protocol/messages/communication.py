@@ -23,21 +23,21 @@ class CommunicationCommand:
     Attributes:
         command_type: Addressing of the message.
         message: Any str. Its airtime depends on its length in UTF-8.
-        destination: Id of the receiving node; only for `SEND`.
+        destination: Id or name of the receiving node; only for `SEND`. See `IProvider.id_of` for names.
         interface: Index of the node's network interface that sends it, 0 to 15: 1 for wlan[1]. Prototype mode
             has one medium, which all interfaces share.
     """
 
     command_type: CommunicationCommandType
     message: str
-    destination: int | None = None
+    destination: int | str | None = None
     interface: int = field(default=0, kw_only=True)
 
 
 class SendMessageCommand(CommunicationCommand):
-    """Sends `message` to the node `destination` alone."""
+    """Sends `message` to the node with the id or the name `destination` alone."""
 
-    def __init__(self, message: str, destination: int, *, interface: int = 0) -> None:
+    def __init__(self, message: str, destination: int | str, *, interface: int = 0) -> None:
         super().__init__(CommunicationCommandType.SEND, message, destination, interface=interface)
 
 

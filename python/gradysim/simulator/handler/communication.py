@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any, TypeAlias, cast
 
 from gradysim.encapsulator.random_stream import Purpose, RandomStream
-from gradysim.encapsulator.validation import checked_interface, wrong_communication
+from gradysim.encapsulator.validation import addressed_by_id, checked_interface, wrong_communication
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.protocol.errors import CommunicationException as CommunicationException
@@ -258,6 +258,9 @@ class CommunicationHandler(INodeHandler):
             raise self._refusal(command, sender)
         if type(interface) is not int or interface:
             checked_interface(interface)  # all interfaces share one medium
+        if isinstance(address, str):
+            command = addressed_by_id(command, getattr(sender, "ids_by_name", {}))
+            address = command.destination
         destinations: Collection[CommunicationDestination]
         if kind == CommunicationCommandType.BROADCAST:
             destinations = self._destinations.values()
