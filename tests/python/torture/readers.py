@@ -1,23 +1,27 @@
 """Files that others may have written, changed at random: each is read or refused, in bounded time.
 
-Changed are the files of `tests/corpus`, of which each reader has a directory. A changed file that found a bug
-belongs there, too. The reader of .ini files has more changes, in `mutant_files`.
+Changed are the files of `tests/corpus`, of which each reader has a directory, and files that are made here.
+A changed file that found a bug is kept there as `damaged-…`. The reader of .ini files has more changes, in
+`mutant_files`.
 """
 
 import json
 import os
+import re
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
 
+from gradysim.cli.errors import OK
 from gradysim.omnetpp_import import translate
 from gradysim.replay.chunk import unpack
+from gradysim.replay.file import read_parts
 from gradysim.replay.reader import read_replay
 from gradysim.results.file_checksum import LINE_BYTES, append_checksum
 from gradysim.results.packing import unpack as unpack_results
@@ -25,10 +29,12 @@ from gradysim.results.result_dir import read_results
 from gradysim.results.verify import verify
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors import ConfigError
+from python.cli.command import call_gradysim
 from python.damage import damaged
 from python.torture.damage import packed
 from python.torture.mutant_files import ROOT, changed
 from python.torture.mutants import LONGEST_MESSAGE, in_bounded_time
+from python.torture.study import OUT, prepare
 
 AT_ONCE = 60
 _ODD: tuple[Any, ...] = (
@@ -47,6 +53,7 @@ _ODD: tuple[Any, ...] = (
     {},
     [1, 2],
 )
+_ELEMENT = re.compile(rb'<script [^>]*"gradysim-(?:run|chunk|end)">[^<]*</script>\n?')
 _TOWN = """[General]
 sim-time-limit = 1s
 *.sink.protocol.typename = "SinkProtocol"
@@ -146,8 +153,34 @@ READERS = {
 def corpus(name: str) -> list[tuple[str, bytes]]:
     """Return the names and the contents of the files that are changed for a reader."""
     files = sorted((ROOT / "tests" / "corpus" / name).glob("*"))
-    made = [("runs.sca", packed())] if name == "pack" else []
+    made = [_MADE[name]()] if name in _MADE else []
     return [*made, *((file.name, file.read_bytes()) for file in files)]
+
+
+@cache
+def _replay() -> tuple[str, bytes]:
+    """Return a replay without the program of its page."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        prepare(folder)
+        run = ("run", "study.ini", "-r", "0", "--mode", "prototype", "--set", "sim-time-limit=1s", "--quiet")
+        assert call_gradysim(folder, *run, "--replay", "all", "--result-dir", OUT).returncode == OK
+        (page,) = (folder / OUT).glob("*.html")
+        return "beacons.html", b"".join(_ELEMENT.findall(page.read_bytes()))
+
+
+@cache
+def _chunk() -> tuple[str, bytes]:
+    name, content = _replay()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, name)
+        file.write_bytes(content)
+        _, chunks, _ = read_parts(file)
+        return "beacons.chunk", next(chunks)
+
+
+_MADE = {"pack": lambda: ("runs.sca", packed()), "replay": _replay, "chunk": _chunk}
+"""Files whose format changes with the version, as this version writes them."""
 
 
 def check(name: str, file: Path) -> str:
