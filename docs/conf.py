@@ -1,10 +1,33 @@
 """The documentation site: `make docs` builds it with Sphinx, from Markdown and docstrings."""
 
+import contextlib
+import io
+import shutil
 from importlib import metadata
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
+
+
+def make_replay() -> Path:
+    """Record the run of a new project; return a directory with its page, `swarm.html`."""
+    from gradysim.cli.app import main
+
+    made = Path(__file__).parents[1] / "build" / "front_page"
+    shutil.rmtree(made, ignore_errors=True)
+    (made / "page").mkdir(parents=True)
+    scenario = str(made / "swarm" / "swarm.ini")
+    with contextlib.redirect_stdout(io.StringIO()):
+        codes = [
+            main(["new", str(made / "swarm")]),
+            main(["run", scenario, "--quiet", "--replay", "all", "--result-dir", str(made)]),
+        ]
+    assert codes == [0, 0]
+    (made / "General-#0.integrated.html").rename(made / "page" / "swarm.html")
+    return made / "page"
+
 
 project = "gradysim"
 author = "The gradysim authors"
@@ -47,6 +70,9 @@ html_theme = "furo"
 html_title = f"gradysim {release}"
 html_show_sourcelink = False
 html_copy_source = False
+
+# The replay of the front page is made with the site.
+html_extra_path = [str(make_replay())]
 
 # Tables of error rates are shown as csv, which the highlighter does not know.
 suppress_warnings = ["misc.highlighting_failure"]

@@ -21,17 +21,18 @@ def folder(code_blocks: Callable[[str, str], list[str]], tmp_path: Path) -> Path
     return tmp_path
 
 
-def test_its_files_are_those_of_the_tutorial(code_blocks: Callable[[str, str], list[str]]) -> None:
-    for language in ("python", "ini"):
-        assert code_blocks("README.md", language) == code_blocks("docs/tutorial/1-hello.md", language)
+def test_its_scenario_is_that_of_the_tutorial(code_blocks: Callable[[str, str], list[str]]) -> None:
+    assert code_blocks("README.md", "ini") == code_blocks("docs/tutorial/1-hello.md", "ini")
 
 
 def test_its_commands_print_what_is_said(folder: Path, shell: Callable[..., str]) -> None:
-    lines = re.findall(r"^(gradysim run .*?) +# .*heard = (\d+)$", README.read_text(), re.MULTILINE)
-    assert len(lines) == 2
-    for command, heard_by_each in lines:
+    lines = re.findall(r"^(gradysim run .*?) +# .*, (\d+) %", README.read_text(), re.MULTILINE)
+    assert len(lines) == 3
+    for command, percent in lines:
         result = json.loads(shell(f"{command} --json --quiet", folder))
-        assert [node["tracked_variables"]["heard"] for node in result["nodes"]] == [int(heard_by_each)] * 4
+        broadcast = result["fates"]["frames"]["broadcast"]
+        decided = sum(count for outcome, count in broadcast.items() if outcome != "in_air")
+        assert broadcast["delivered"] / decided == int(percent) / 100
 
 
 def test_it_shows_a_part_of_the_summary(
@@ -52,7 +53,7 @@ def test_each_line_of_its_sh_snippets_is_of_a_kind_that_is_tested_here(
     code_blocks: Callable[[str, str], list[str]],
 ) -> None:
     lines = "".join(code_blocks("README.md", "sh")).splitlines()
-    known = re.compile(r"gradysim run .* # .*heard = \d+|gradysim view hello.ini .*# .*")
+    known = re.compile(r"gradysim run .* # .*, \d+ %.*|gradysim view hello.ini .*# .*|pip install \. +# .*")
     assert [line for line in lines if not known.fullmatch(line)] == []
 
 
