@@ -19,6 +19,7 @@ from gradysim.cli.calibrate import calibrate_power
 from gradysim.cli.check import check_file
 from gradysim.cli.compare import compare
 from gradysim.cli.desync import desynchronize_timers
+from gradysim.cli.docs import show_docs
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 from gradysim.cli.import_file import import_file
 from gradysim.cli.keys import list_keys
@@ -86,6 +87,7 @@ EXAMPLES: dict[str, dict[str, tuple[Callable[..., int], str]]] = {
     "Write": {
         "new": (make_project, "gradysim new swarm"),
         "check": (check_file, "gradysim check swarm.ini -c Study"),
+        "docs": (show_docs, "gradysim docs fly-a-mission"),
         "keys": (list_keys, "gradysim keys communicationRange"),
         "calibrate": (calibrate_power, "gradysim calibrate swarm.ini --range 50m"),
         "import": (import_file, "gradysim import omnetpp.ini -o imported"),

@@ -34,13 +34,14 @@ _SCENARIOS = re.compile(r"""parents\[2\] / "configs\"""")
 _COMMAND = re.compile(r"^#     ((?:gradysim|python) .*)$", re.MULTILINE)
 
 
-def _root() -> Path:
+def files_root() -> Path:
+    """Return the directory of `configs`, `examples` and `docs`."""
     package = Path(gradysim.__file__).parent
     return package if (package / "configs").is_dir() else package.parents[1]
 
 
 def _text(name: str) -> str:
-    return (_root() / _FILES[name][0]).read_text(encoding="utf-8")
+    return (files_root() / _FILES[name][0]).read_text(encoding="utf-8")
 
 
 def subject(name: str) -> str:
@@ -56,9 +57,9 @@ def commands(name: str) -> list[str]:
 def files_of(name: str) -> Iterator[str]:
     """Yield the paths of an example's files in the repository, and in a wheel below the package."""
     for path in _FILES[name]:
-        source = _root() / path
+        source = files_root() / path
         for file in source.rglob("*.py") if source.is_dir() else [source]:
-            yield file.relative_to(_root()).as_posix()
+            yield file.relative_to(files_root()).as_posix()
 
 
 def copy_files(name: str, directory: Path) -> None:
@@ -66,7 +67,7 @@ def copy_files(name: str, directory: Path) -> None:
     for path in files_of(name):
         target = directory / _in_copy(path)
         target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_text(_in_copy((_root() / path).read_text(encoding="utf-8")), encoding="utf-8")
+        target.write_text(_in_copy((files_root() / path).read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def _in_copy(text: str) -> str:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
+from gradysim.cli.docs import with_commands, with_links
 from gradysim.cli.errors import MISTAKE, OK
 
 if TYPE_CHECKING:
@@ -92,23 +93,25 @@ def rich_list(sections: "Iterable[KeySection]") -> "RenderableType":
         for row in section.rows:
             default = f"; default: {row.default}" if row.default else ""
             parts.append(Text(row.key, style="bold", no_wrap=True, overflow="ignore"))
-            parts.append(Padding(Text(f"{row.unit}{default}\n{row.meaning}"), (0, 0, 1, _INDENT)))
+            meaning = with_commands(row.meaning)
+            parts.append(Padding(Text(f"{row.unit}{default}\n{meaning}"), (0, 0, 1, _INDENT)))
     return Group(*parts)
 
 
 def plain_text(sections: "Iterable[KeySection]") -> str:
     """Return one line per key, with four columns separated by tabs, for other programs."""
     rows = [row for section in sections for row in section.rows]
-    return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{row.meaning}\n" for row in rows)
+    return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{with_commands(row.meaning)}\n" for row in rows)
 
 
 def markdown_page(sections: "Iterable[KeySection]") -> str:
     """Return the page docs/reference/keys.md."""
-    parts = [INTRODUCTION]
+    parts = [with_links(INTRODUCTION)]
     for section in sections:
         lines = [f"| {' | '.join(HEADINGS)} |", "|---|---|---|---|"]
         lines += [
-            f"| `{row.key}` | {row.unit} | {_code(row.default)} | {row.meaning} |" for row in section.rows
+            f"| `{row.key}` | {row.unit} | {_code(row.default)} | {with_links(row.meaning)} |"
+            for row in section.rows
         ]
         parts += [f"## {section.title}", "\n".join(lines)]
     return "\n\n".join(parts) + "\n"
