@@ -164,6 +164,13 @@ TEST_P(RandomFrames, WorstMomentMatchesThePlainSearch) {
     const Worst expected = plain_worst(frames, us(20), us(40));
     EXPECT_EQ(sum.worst_w(), expected.sum_w);
     EXPECT_EQ(sum.interferers(), expected.interferers);
+    if (expected.sum_w > 0) {
+        double of_all_w = 0;
+        for (NodeId sender = 0; sender < 5; ++sender) {
+            of_all_w += sum.worst_w_of(sender);
+        }
+        EXPECT_DOUBLE_EQ(of_all_w, expected.sum_w);
+    }
 }
 
 TEST_P(RandomFrames, StepsMatchTheSumAtEveryMoment) {

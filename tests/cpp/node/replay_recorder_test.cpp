@@ -1,7 +1,9 @@
 #include "netsim/node/replay_recorder.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -155,6 +157,126 @@ TEST(ReplayRecorder, ANodeThatIsNotRecordedHasAPathOnly) {
     EXPECT_EQ(counts_of(chunks), (Counts{{{0, 0}, 1}, {{1, 0}, 1}, {{2, 0}, 2}}));
     EXPECT_EQ(values<std::uint32_t>(chunks[0], "events", "node"), (std::vector<std::uint32_t>{2}));
     EXPECT_EQ(values<std::uint32_t>(chunks[0], "legs", "node"), (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+// The first node sends at 1 ms: to node `destination`, or to all.
+std::vector<ReplayChunk> record(const MediumConfig& medium, const std::vector<Position>& places,
+                                const std::vector<std::string>& messages, NodeId destination = broadcast_id) {
+    Network network{medium, 1};
+    NodeConfig config("node");
+    config.mobility.telemetry_interval_s = 0;
+    config.wlan[0].radio.communication_range_m = 100;  // of the unit disk medium
+    std::vector<NodeId> all;
+    for (const Position& place : places) {
+        config.initial_position = place;
+        Recorder& node = test::add_recorder(network, config);
+        if (all.empty()) {
+            node.on_initialize = [](Recorder& self) {
+                self.node.schedule_timer("talk", SimTime::from_us(1000));
+            };
+            node.on_timer = [&](Recorder& self, const std::string&) {
+                for (const std::string& message : messages) {
+                    if (destination == broadcast_id) {
+                        self.broadcast(message);
+                    } else {
+                        self.send(destination, message);
+                    }
+                }
+            };
+        }
+        all.push_back(static_cast<NodeId>(all.size()));
+    }
+    ReplayRecorder& recorder = network.record(all);
+    network.initialize();
+    network.run_until(SimTime::from_seconds(1));
+    recorder.finish();
+    return recorder.take();
+}
+
+MediumConfig behind_a_wall(const char* obstacle_loss) {
+    ObstacleConfig wall;
+    wall.rings = {{{10, -500}, {10.2, -500}, {10.2, 500}, {10, 500}}};
+    wall.top_m = 20;
+    wall.material = "brick";
+    MediumConfig medium;
+    medium.obstacle_loss = obstacle_loss;
+    medium.obstacles = {wall};
+    return medium;
+}
+
+constexpr std::int16_t no_power = -32768;
+
+TEST(ReplayRecorder, SaysWhatTookThePowerOfAFrame) {
+    const auto chunks = record(behind_a_wall("IdealObstacleLoss"),
+                               {{0, 0, 2}, {5, 0, 2}, {50, 0, 2}, {90000, 0, 2}}, {"hello"});
+    ASSERT_EQ(chunks.size(), 1U);
+    const auto& chunk = chunks[0];
+    // Node 3 is too far away, whatever is in between.
+    EXPECT_EQ(values<std::uint32_t>(chunk, "losses", "receiver"), (std::vector<std::uint32_t>{2}));
+    EXPECT_EQ(values<std::int16_t>(chunk, "losses", "power_cdbm"), (std::vector<std::int16_t>{no_power}));
+    EXPECT_EQ(values<std::int16_t>(chunk, "losses", "noise_cdbm"), (std::vector<std::int16_t>{no_power}));
+    EXPECT_EQ(values<std::int16_t>(chunk, "losses", "needed_cdb"), (std::vector<std::int16_t>{-8500}));
+    EXPECT_EQ(values<std::int16_t>(chunk, "losses", "distance_cdb"), (std::vector<std::int16_t>{-7407}));
+    EXPECT_EQ(values<std::uint32_t>(chunk, "obstructions", "obstacle"), (std::vector<std::uint32_t>{0}));
+    EXPECT_EQ(values<std::uint32_t>(chunk, "frames", "unnoticed"), (std::vector<std::uint32_t>{2}));
+    EXPECT_EQ(values<std::uint32_t>(chunk, "frames", "receptions"), (std::vector<std::uint32_t>{1}));
+    EXPECT_EQ(values<std::uint8_t>(chunk, "receptions", "outcome"), (std::vector<std::uint8_t>{0, 1}));
+}
+
+TEST(ReplayRecorder, ExplainsTheLossAtTheDestinationAtAnyDistance) {
+    const auto chunks = record(MediumConfig(), {{0, 0, 2}, {90000, 0, 2}, {90000, 9, 2}}, {"hello"}, 1);
+    const auto receivers = values<std::uint32_t>(chunks.at(0), "losses", "receiver");
+    EXPECT_EQ(receivers.size(), values<std::uint32_t>(chunks[0], "frames", "node").size());
+    EXPECT_EQ(std::set<std::uint32_t>(receivers.begin(), receivers.end()), (std::set<std::uint32_t>{1}));
+}
+
+TEST(ReplayRecorder, KeepsTheFiftyStrongestLossesOfAFrame) {
+    MediumConfig medium = behind_a_wall("DielectricObstacleLoss");
+    medium.obstacles[0].material = "concrete";
+    medium.obstacles[0].rings = {{{10, -500}, {12, -500}, {12, 500}, {10, 500}}};
+    std::vector<Position> places{{0, 0, 2}};
+    for (int node = 0; node < 60; ++node) {
+        places.push_back({100.0 - node, 0, 2});
+    }
+    const auto chunks = record(medium, places, {"hello"});
+    auto receivers = values<std::uint32_t>(chunks.at(0), "losses", "receiver");
+    std::ranges::sort(receivers);
+    ASSERT_EQ(receivers.size(), 50U);
+    EXPECT_EQ(receivers.front(), 11U);  // those before it are farther away
+    EXPECT_EQ(values<std::uint32_t>(chunks[0], "frames", "unnoticed"), (std::vector<std::uint32_t>{60}));
+}
+
+TEST(ReplayRecorder, KeepsEachMessageOnce) {
+    const auto chunks = record(MediumConfig(), {{0, 0, 2}, {5, 0, 2}}, {"hello", "you", "hello"});
+    EXPECT_EQ(values<std::uint32_t>(chunks.at(0), "frames", "text"), (std::vector<std::uint32_t>{1, 2, 1}));
+    EXPECT_EQ(values<std::uint32_t>(chunks[0], "texts", "bytes"), (std::vector<std::uint32_t>{5, 3}));
+    const auto octets = values<char>(chunks[0], "text_bytes", "byte");
+    EXPECT_EQ(std::string(octets.begin(), octets.end()), "helloyou");
+}
+
+TEST(ReplayRecorder, CutsLongMessagesBetweenCharacters) {
+    const MediumConfig unit_disk{std::string(unit_disk_medium)};
+    std::string umlauts = "x";
+    while (umlauts.size() < 5000) {
+        umlauts += "\u00fc";
+    }
+    const auto chunks = record(unit_disk, {{0, 0, 2}, {5, 0, 2}}, {umlauts});
+    EXPECT_EQ(values<std::uint32_t>(chunks.at(0), "texts", "recorded"), (std::vector<std::uint32_t>{1999}));
+    EXPECT_EQ(values<std::uint32_t>(chunks[0], "texts", "bytes"), (std::vector<std::uint32_t>{5001}));
+}
+
+TEST(ReplayRecorder, LeavesOutTextsOnceAChunkHasManyOfThem) {
+    std::vector<std::string> messages;
+    for (int number = 0; number < 600; ++number) {
+        messages.push_back(std::to_string(number) + std::string(1000, 'x'));
+    }
+    const MediumConfig unit_disk{std::string(unit_disk_medium)};
+    const auto chunks = record(unit_disk, {{0, 0, 2}, {5, 0, 2}}, messages);
+    const auto texts = values<std::uint32_t>(chunks.at(0), "frames", "text");
+    ASSERT_EQ(texts.size(), 600U);
+    EXPECT_EQ(texts[498], 499U);
+    EXPECT_EQ(texts[499], 0xFFFFFFFF);
+    EXPECT_EQ(texts.back(), 0xFFFFFFFF);
 }
 
 }  // namespace
