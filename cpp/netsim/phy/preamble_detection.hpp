@@ -27,6 +27,8 @@ public:
     bool is_on() const { return is_on_; }
     SimTime duration() const { return duration_; }  // 0 if off
     bool frees_channel() const { return frees_channel_; }
+    double threshold() const { return threshold_; }  // of the SNIR, a ratio
+    double minimum_power_w() const { return minimum_power_w_; }
     // `snir` is a linear ratio.
     bool detects(double power_w, double snir) const {
         return power_w >= minimum_power_w_ && snir >= threshold_;

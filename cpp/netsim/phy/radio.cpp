@@ -115,6 +115,10 @@ void Radio::end_detection(const Transmission* transmission) {
         return model_.reception.snir(arrival, steps.back().power_w);
     };
     if (!is_strongest || !model_.preamble_detection.detects(arrival.power_w, snir())) {
+        if (medium().fates().observer() != nullptr) {
+            tell_loss(arrival, FrameFate::preamble_undetected,
+                      &interference_in(arrival, {arrival.start, simulator().now()}));
+        }
         book(*transmission, FrameFate::preamble_undetected);
         update_busy();
         return;
@@ -153,12 +157,12 @@ void Radio::lock_on(const Arrival& arrival) {
 }
 
 void Radio::end_header() {
-    if (header_survives()) {
+    InterferenceSum* interference = nullptr;
+    if (header_survives(interference)) {
         return;
     }
-    const Transmission& lost = present_.unlock();
-    add_to_fingerprint(lost, FrameFate::header_error);
-    book(lost, FrameFate::header_error);
+    add_to_fingerprint(present_.unlock(), FrameFate::header_error);
+    book_loss(locked_arrival_, FrameFate::header_error, interference);
     has_lost_header_ = true;
     listener_->frame_corrupted();
     has_lost_header_ = false;
@@ -247,8 +251,11 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause)
 }
 
 FrameFate Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
-    if (simulator().cancel(header_end_) && !header_survives()) {
-        return FrameFate::header_error;  // the frame ends with its header
+    if (simulator().cancel(header_end_)) {  // the frame ends with its header
+        if (!header_survives(cause)) {
+            return FrameFate::header_error;
+        }
+        cause = nullptr;
     }
     const double draw = this->draw();
     InterferenceSum& interference = interference_in(arrival, period_of(FramePart::data, arrival));
@@ -267,10 +274,9 @@ bool Radio::is_receiving_header() const {
            simulator().now() >= period_of(FramePart::header, locked_arrival_).start;
 }
 
-bool Radio::header_survives() {
-    InterferenceSum& interference =
-        interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
-    return draw() < model_.reception.success(FramePart::header, locked_arrival_, interference);
+bool Radio::header_survives(InterferenceSum*& interference) {
+    interference = &interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
+    return draw() < model_.reception.success(FramePart::header, locked_arrival_, *interference);
 }
 
 void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
@@ -283,28 +289,42 @@ void Radio::book(const Transmission& transmission, FrameFate fate) {
 }
 
 void Radio::book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference) {
+    tell_loss(arrival, fate, interference);
     const Transmission& lost = *arrival.transmission;
-    FrameFates& fates = medium().fates();
-    if (FrameObserver* const observer = fates.observer();
-        observer != nullptr && observer->explains(lost.sender.node, node())) {
-        FrameObserver::Loss loss{.receiver = node(),
-                                 .power_w = arrival.power_w,
-                                 .budget = medium().power_budget(id_, arrival),
-                                 .needed = model_.needed_snir(*lost.mode, lost.psdu_bytes),
-                                 .noise_w = model_.reception.noise_w};
-        if (interference != nullptr) {
-            loss.interference_w = interference->worst_w();
-            for (const NodeId interferer : interference->interferers()) {
-                loss.interferers.push_back({interferer, interference->worst_w_of(interferer)});
-            }
-        }
-        observer->frame_lost(lost.id(), loss);
-    }
-    if (interference != nullptr) {
-        fates.book_interference(node(), lost.label, interference->interferers());
+    if (fate == FrameFate::interference) {
+        medium().fates().book_interference(node(), lost.label, interference->interferers());
     } else {
         book(lost, fate);
     }
+}
+
+void Radio::tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference) {
+    const Transmission& lost = *arrival.transmission;
+    FrameObserver* const observer = medium().fates().observer();
+    if (observer == nullptr || !observer->explains(lost.sender.node, node())) {
+        return;
+    }
+    FrameObserver::Loss loss{.receiver = node(),
+                             .power_w = arrival.power_w,
+                             .budget = medium().power_budget(id_, arrival),
+                             .noise_w = model_.reception.noise_w};
+    if (fate == FrameFate::header_error) {
+        loss.needed = model_.needed_header_snir(*lost.mode);
+    } else if (fate != FrameFate::preamble_undetected) {
+        loss.needed = model_.needed_snir(*lost.mode, lost.psdu_bytes);
+    } else if (arrival.power_w < model_.preamble_detection.minimum_power_w()) {
+        loss.needed = model_.preamble_detection.minimum_power_w();
+        loss.noise_w = 0;
+    } else {
+        loss.needed = model_.preamble_detection.threshold();
+    }
+    if (interference != nullptr && loss.noise_w > 0) {
+        loss.interference_w = interference->worst_w();
+        for (const NodeId interferer : interference->interferers()) {
+            loss.interferers.push_back({interferer, interference->worst_w_of(interferer)});
+        }
+    }
+    observer->frame_lost(lost.id(), loss);
 }
 
 void Radio::update_busy() {

@@ -160,7 +160,10 @@ private:
     FrameFate decide_at_once(const Arrival& arrival, InterferenceSum*& cause);
     FrameFate decide_data(const Arrival& arrival, InterferenceSum*& cause);
     void book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
-    bool header_survives();
+    // Fills in the interference with the header. Valid until the medium is asked for another one.
+    bool header_survives(InterferenceSum*& interference);
+    // Tells the observer of a loss, if there is one. `interference` may be null.
+    void tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
     // Always false without PreambleDetection::frees_channel.
     bool is_receiving_header() const;
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {

@@ -1,9 +1,31 @@
 #include "netsim/phy/radio_model.hpp"
 
+#include <cmath>
+
 #include "netsim/phy/antenna.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
+
+namespace {
+
+constexpr double half = 0.5;
+
+// The least SNIR that is enough, to 0.001 dB; 100 dB if none is.
+template <typename IsEnough>
+double least_snir(IsEnough is_enough) {
+    constexpr double farthest_db = 100;
+    constexpr double precise_db = 1e-3;
+    double too_low_db = -farthest_db;
+    double enough_db = farthest_db;
+    while (enough_db - too_low_db > precise_db) {
+        const double middle_db = (too_low_db + enough_db) / 2;
+        (is_enough(ratio_from_db(middle_db)) ? enough_db : too_low_db) = middle_db;
+    }
+    return ratio_from_db(enough_db);
+}
+
+}  // namespace
 
 RadioModel::RadioModel(const RadioConfig& config, Medium& medium_, std::uint64_t seed_)
     : medium(medium_),
@@ -25,23 +47,21 @@ RadioModel::RadioModel(const RadioConfig& config, Medium& medium_, std::uint64_t
 }
 
 double RadioModel::needed_snir(const Mode& mode, int psdu_bytes) const {
-    constexpr double half = 0.5;
-    constexpr double farthest_db = 100;
-    constexpr double precise_db = 1e-3;
     const auto [known, is_new] = needed_snir_.try_emplace({&mode, psdu_bytes});
     if (is_new) {
-        double too_low_db = -farthest_db;
-        double enough_db = farthest_db;
-        while (enough_db - too_low_db > precise_db) {
-            const double middle_db = (too_low_db + enough_db) / 2;
-            const double snir = ratio_from_db(middle_db);
-            const bool is_enough = snir > reception.snir_threshold &&
-                                   reception.errors->success_probability(mode, snir, psdu_bytes) >= half;
-            (is_enough ? enough_db : too_low_db) = middle_db;
-        }
-        known->second = ratio_from_db(enough_db);
+        known->second = least_snir([&](double snir) {
+            return snir > reception.snir_threshold &&
+                   reception.errors->success_probability(mode, snir, psdu_bytes) >= half;
+        });
     }
     return known->second;
+}
+
+double RadioModel::needed_header_snir(const Mode& mode) const {
+    return least_snir([&](double snir) {
+        return snir > reception.snir_threshold &&
+               reception.errors->log_header_success(mode, snir) >= std::log(half);
+    });
 }
 
 }  // namespace netsim

@@ -29,6 +29,8 @@ public:
     // The SNIR, a ratio, with which half of the frames of that length survive; at most 100
     // dB.
     double needed_snir(const Mode& mode, int psdu_bytes) const;
+    // The same for the PHY headers alone, where they are decided separately (by_chunks).
+    double needed_header_snir(const Mode& mode) const;
 
     Medium& medium;
     std::uint64_t seed;

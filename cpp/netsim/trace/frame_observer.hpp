@@ -28,10 +28,11 @@ public:
         NodeId receiver = 0;
         double power_w = 0;
         PowerBudget budget{};  // of that power; sent_w is 0 on a medium without powers
-        // Of a frame that was too weak to be noticed: the receiver's sensitivity in W. Otherwise the
-        // SNIR, a ratio, with which half of such frames survive.
+        // Of a frame that was too weak: the receiver's sensitivity in W, or the least power of its
+        // preamble detection. Otherwise the SNIR, a ratio, that detection needs, or with which half
+        // of such headers or frames survive.
         double needed = 0;
-        // Both are 0 if the frame was not noticed.
+        // Both are 0 if the frame was too weak, whatever the noise.
         double noise_w = 0;
         double interference_w = 0;              // 0 if the frame was lost to noise
         std::vector<Interferer> interferers{};  // strongest first

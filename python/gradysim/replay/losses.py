@@ -30,10 +30,10 @@ class Loss:
         receiver: Id of a node.
         sent_dbm: Power of the sender.
         power_dbm: Power at the receiver.
-        noise_dbm: Noise at the receiver; None if the frame was below its sensitivity.
+        noise_dbm: Noise at the receiver; None if the frame was too weak, whatever the noise.
         interference_dbm: Sum of the other frames at the worst moment; None if they did not matter.
         needed: Sensitivity in dBm if `noise_dbm` is None, otherwise the SINR in dB with which half of
-            such frames survive; None on a medium without powers.
+            such frames survive, or that preamble detection needs; None on a medium without powers.
         distance_m: Distance of sender and receiver, in meters.
         path_loss_db: Path loss of the distance in dB; None on a medium without powers.
         gains: {name: dB} of what is not 0: `sender antenna`, `receiver antenna`, `ground`, `shadowing`,

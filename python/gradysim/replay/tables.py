@@ -109,8 +109,8 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
         Column("frame", "u32", delta=True),
         Column("receiver", "u32"),
         Column("power_cdbm", "i16"),
-        Column("needed_cdb", "i16"),  # without noise: sensitivity; with noise: SINR for half of such frames
-        Column("noise_cdbm", "i16"),  # NO_POWER below the sensitivity
+        Column("needed_cdb", "i16"),  # without noise: a power; with noise: an SINR
+        Column("noise_cdbm", "i16"),  # NO_POWER if the frame was too weak, whatever the noise
         Column("interference_cdbm", "i16"),
         Column("distance_cdb", "i16"),  # path loss, only where the power is NO_POWER; otherwise 0
         Column("sender_antenna_cdb", "i16"),

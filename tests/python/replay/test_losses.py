@@ -98,3 +98,31 @@ def test_fading_and_shadowing_are_recorded(tmp_path):
     for loss in losses:
         assert loss.path_loss_db == pytest.approx(free_space_db(loss.distance_m), abs=CLOSE_DB)
         assert set(loss.gains) == {"shadowing", "fading"}
+
+
+@pytest.mark.parametrize("outcome", ["preamble_undetected", "header_error"])
+def test_preambles_and_headers_have_what_they_need(make_scenario, tmp_path, outcome):
+    python = """
+class Tested(Quiet):
+    def initialize(self):
+        if self.provider.get_id() != 1:
+            self.provider.schedule_timer("talk", 1)
+    def handle_timer(self, timer):
+        for _ in range(20):
+            self.provider.send_communication_command(BroadcastMessageCommand("x" * 500))
+"""
+    receiver = {
+        "preamble_undetected": ['preambleDetection.typename="ThresholdPreambleDetection"'],
+        "header_error": [],
+    }[outcome]
+    settings = [f"*.uavs[*].wlan[*].radio.receiver.{line}" for line in receiver]
+    hidden = ("*.uavs.count = 3", "*.uavs[*].mobility.lineStepX = 400m")
+    scenario = make_scenario(
+        python, *hidden, '*.uavs[*].wlan[*].radio.receiver.errorModel.snirMode = "chunks"', *settings
+    )
+    IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
+    replay = read_replay(tmp_path / "run.html")
+    lost = {(frame, node) for frame, node, fate in replay.receptions() if fate == outcome}
+    found = [loss for loss in replay.losses() if (loss.frame, loss.receiver) in lost]
+    assert found
+    assert all(loss.needed < 10 and loss.sinr_db < loss.needed + 1 for loss in found)
