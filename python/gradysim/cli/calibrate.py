@@ -98,6 +98,7 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
         "",
         f"    *.{c.sender}.{wlan}.radio.transmitter.power = {_in_mw(c.tx_power_w)}mW",
         "",
+        *_what_is_beyond_radios(c.tx_power_w),
         *_what_decides("sensitivity", c.deciding_sensitivity_w),
         *_what_decides("preambleDetection.minimumPower", c.deciding_preamble_w),
         *_what_is_left_out(c.obstacles_left_out),
@@ -108,6 +109,21 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
         bar = block * round(ratio * BAR_WIDTH)
         lines.append(f"{_in_metres(distance_m):>6} m  {100 * ratio:7.2f} %  {bar}".rstrip())
     return "\n".join(lines)
+
+
+_STRONGEST_W = 1.0
+"""Radios of vehicles have less, and the rules for most bands do not allow more."""
+
+
+def _what_is_beyond_radios(power_w: float) -> list[str]:
+    """Return a warning about a power that no radio of a vehicle has."""
+    if power_w <= _STRONGEST_W:
+        return []
+    return [
+        f"warning: this is {power_w:.3g} W, more than radios of vehicles have ({_STRONGEST_W:g} W);",
+        "expected a smaller --range, a lower bitrate or another path loss",
+        "",
+    ]
 
 
 def _sender(c: "Calibration") -> str:

@@ -10,7 +10,13 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue, Source
 from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
 from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.keys import BAND_BESIDE_FREQUENCY, BAND_OF_CHANNEL, CENTER_FREQUENCY, has_radios
+from gradysim.scenario.keys import (
+    BAND_BESIDE_FREQUENCY,
+    BAND_OF_CHANNEL,
+    CENTER_FREQUENCY,
+    STATIONARY,
+    has_radios,
+)
 from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import annotations_of, unit_of
@@ -74,6 +80,7 @@ def lint(scenarios: Sequence[Scenario]) -> list[Finding]:
     for nodes in {id(scenario.nodes): scenario.nodes for scenario in scenarios}.values():
         findings += bands_beside_frequencies(nodes)
         findings += doubtful_times(nodes)
+        findings += nodes_on_one_point(nodes)
     return by_line(findings)
 
 
@@ -257,6 +264,33 @@ def bands_beside_frequencies(nodes: Iterable[NodeSpec]) -> list[Finding]:
         for band, center in unread.items()
         if band not in read
     ]
+
+
+def nodes_on_one_point(nodes: Sequence[NodeSpec]) -> list[Finding]:
+    """Return the line of the first of several nodes that stand on one point, and cannot leave it.
+
+    Nodes that can move often start together.
+    """
+    at_point: dict[tuple[float, float, float], list[NodeSpec]] = {}
+    for spec in nodes:
+        typename = spec.mobility.get("typename")
+        if typename is not None and typename.value == STATIONARY:
+            at_point.setdefault(spec.initial_position, []).append(spec)
+    findings = []
+    for point, together in at_point.items():
+        source = together[0].protocol_sources.get("") if len(together) > 1 else None
+        if source is not None:
+            first, second, *others = (spec.name for spec in together)
+            names = f"{first} and {second}" if not others else f"{first}, {second} and {len(others)} more"
+            place = ", ".join(f"{coordinate:g}" for coordinate in point)
+            findings.append(
+                Finding(
+                    source,
+                    f"{names} stand on one point, ({place}) m; expected a place for each, such as"
+                    f" `*.{together[0].group}[*].mobility.lineStepX = 10m`",
+                )
+            )
+    return findings
 
 
 # Doubtful times: `interval = 5m` is five meters. A minute is `min`. Parameters whose unit is declared refuse

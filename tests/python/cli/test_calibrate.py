@@ -114,3 +114,14 @@ def test_where_the_noise_decides_the_promised_share_is_received(
     threshold = "**.radio.receiver.snirThreshold = -20dB"
     share = received(100.0, ratio, frames, *NOISE_DECIDES, threshold, f"**.wlan[*].bitrate = {mbps}Mbps")
     assert share == pytest.approx(ratio, abs=4.5 * standard_error)
+
+
+@pytest.mark.parametrize(("range_m", "is_warned"), [(500, False), (500_000, True)])
+def test_a_power_beyond_that_of_radios_is_a_warning(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], range_m: int, is_warned: bool
+) -> None:
+    file = tmp_path / "pair.ini"
+    file.write_text(f"{INI}\nsim-time-limit = 1s\n", encoding="utf-8")
+    options = f"--range {range_m}m --sender sender --receiver receiver"
+    assert main(["calibrate", str(file), *options.split()]) == 0
+    assert ("more than radios of vehicles have" in capsys.readouterr().out) == is_warned

@@ -17,6 +17,7 @@ from gradysim.scenario.lint import (
     by_line,
     doubtful_times,
     lint,
+    nodes_on_one_point,
     shadowed_lines,
     unread_variables,
 )
@@ -267,6 +268,21 @@ def times(folder: Any, line: str) -> list[Finding]:
     folder.write("timed.py", TIMED)
     chosen = '[X]\n*.uavs[*].protocol.class = "timed.py:Timed"\n'
     return doubtful_times(folder.load(f"{chosen}{line}\n", "X").nodes)
+
+
+FIXED = '[X]\n*.uavs[*].mobility.typename = "StationaryMobility"\n'
+
+
+def test_fixed_nodes_on_one_point_are_found(folder: Any) -> None:
+    (finding,) = nodes_on_one_point(folder.load(f"{FIXED}*.uavs[*].mobility.initialX = 5m\n", "X").nodes)
+    assert (finding.line, finding.key) == (5, "*.uavs[*].protocol.class")
+    assert finding.message.startswith("uavs[0] and uavs[1] stand on one point, (5, 0, 0) m; expected")
+    assert finding.message.endswith("`*.uavs[*].mobility.lineStepX = 10m`")
+
+
+@pytest.mark.parametrize("added", ["[X]\n", f"{FIXED}*.uavs[*].mobility.lineStepX = 5m\n"])
+def test_nodes_that_move_or_stand_apart_are_not_found(folder: Any, added: str) -> None:
+    assert nodes_on_one_point(folder.load(added, "X").nodes) == []
 
 
 def test_a_time_in_meters_is_found_once_with_its_line(folder: Any) -> None:
