@@ -8,12 +8,15 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from python.torture.bad_disk import FAULTS, BadDisk
-from python.torture.faults import CASES, STEP, Bench
+from python.torture.faults import CASES, Bench
 from python.torture.study import OUT
 
 pytestmark = pytest.mark.skipif(
     sys.platform != "linux" or shutil.which("cc") is None, reason="it preloads a library, which it compiles"
 )
+
+STEP = 7
+"""Every how many calls `make test-slow` tries one."""
 
 SAMPLE = {
     "run": "POWER",
