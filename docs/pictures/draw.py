@@ -36,9 +36,20 @@ def pictures(
     return film(folder, replay, address, times_s)
 
 
-def film(folder: Path, replay: Path, address: str, times_s: Sequence[float | None]) -> list[Image.Image]:
-    """Return what a replay shows at those times; None is the time of the address."""
-    asked = {"file": quote(str(replay)), "address": address, "width": 900, "height": 560}
+def film(
+    folder: Path,
+    replay: Path,
+    address: str,
+    times_s: Sequence[float | None],
+    size: tuple[int, int] = (900, 560),
+    scale: int = 1,
+) -> list[Image.Image]:
+    """Return what a replay shows at those times; None is the time of the address.
+
+    `size` is the size of the page, and a picture has `scale` times as many pixels.
+    """
+    width, height = size
+    asked = {"file": quote(str(replay)), "address": address, "width": width, "height": height, "scale": scale}
     asked |= {"times": list(times_s), "directory": str(folder)}
     subprocess.run(["node", HERE / "film.mjs"], input=json.dumps(asked), text=True, check=True)
     return [Image.open(folder / f"{number:04}.png").convert("RGB") for number in range(len(times_s))]
@@ -96,6 +107,8 @@ class TutorialShot:
     arguments: str
     time_s: float | None
     address: str
+    size: tuple[int, int] = (900, 560)
+    scale: int = 1
 
 
 TUTORIAL_SHOTS = (
@@ -108,6 +121,15 @@ TUTORIAL_SHOTS = (
         "-c Study -r 20",
         None,
         "#frame=114&filter=outcome:interference",
+    ),
+    TutorialShot(  # the first picture of the README
+        "collision",
+        "7-what-was-lost",
+        "-c Study -r 20",
+        None,
+        "#frame=114&filter=outcome:interference",
+        (1100, 680),
+        2,
     ),
 )
 TUTORIAL_BLOCK = re.compile(
@@ -140,7 +162,7 @@ def draw_tutorial(folder: Path) -> None:
                 arguments = [*shot.arguments.split(), "--replay", "all", "--result-dir", str(results)]
                 main(["run", str(play / "hello.ini"), *arguments, "--quiet"])
                 (replay,) = results.glob("*.html")
-                (picture,) = film(folder, replay, shot.address, [shot.time_s])
+                (picture,) = film(folder, replay, shot.address, [shot.time_s], shot.size, shot.scale)
                 save(picture, f"tutorial/{shot.name}")
         for name in re.findall(r"\]\(../pictures/tutorial/([\w-]+\.png)\)", text):
             if (play / name).exists():

@@ -1,4 +1,4 @@
-// Takes pictures of a replay in Chromium. Reads {file, address, width, height, times, directory} from standard
+// Takes pictures of a replay in Chromium. Reads {file, address, width, height, scale, times, directory} from standard
 // input, and writes DIRECTORY/0000.png and so on, one for each time in seconds. A time of null is
 // that of the address.
 import { readFileSync } from "node:fs";
@@ -10,7 +10,10 @@ const browser = await chromium.launch({
   executablePath: "/usr/bin/chromium",
   args: ["--headless=new", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox"],
 });
-const page = await browser.newPage({ viewport: { width: asked.width, height: asked.height } });
+const page = await browser.newPage({
+  viewport: { width: asked.width, height: asked.height },
+  deviceScaleFactor: asked.scale,
+});
 await page.goto(`file://${asked.file}${asked.address}`);
 await page.evaluate(() => gradysim.ready);
 for (const [number, time] of asked.times.entries()) {
