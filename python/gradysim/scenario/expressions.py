@@ -21,6 +21,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from functools import lru_cache
+from typing import Any
 
 from gradysim.scenario.distributions import DISTRIBUTIONS, ParameterStream, distribution_in, draw
 from gradysim.scenario.errors import BadValue, nearest
@@ -125,6 +126,10 @@ Node = Callable[[ParameterContext | None], Value]
 """Part of a parsed value. Returns its value or raises BadValue; None for a value that all nodes share."""
 
 
+ListValue = Value | tuple[Any, ...]
+ListNode = Callable[[ParameterContext | None], ListValue]
+
+
 def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
     """Return the value of a text such as `1h 5min`, `-85dBm`, `2 * 50m`, `"g(mixed)"` or `true`.
 
@@ -137,6 +142,21 @@ def parse_value(text: str, parameter: ParameterContext | None = None) -> Value:
     return _parse(text)(parameter)
 
 
+def parse_list(text: str, parameter: ParameterContext | None = None) -> ListValue:
+    """Return the value of a text such as `[1, 2]` or `[(0m, 0m), (50m, 10m)]`; see `parse_value`.
+
+    Elements are lists in brackets, tuples in parentheses with a comma, and values. A list is a `Bracketed`
+    here, because values are hashed.
+    """
+    return _parse_list(text)(parameter)
+
+
+class Bracketed(tuple[Any, ...]):
+    """Elements that were written in brackets, as in a list of Python."""
+
+    __slots__ = ()
+
+
 def differs_between_parameters(text: str) -> bool:
     """Whether a value draws or asks for an index, so that each parameter has its own."""
     return bool(distribution_in(text)) or any(match[1] for match in _INDEX_OR_STRING.finditer(text))
@@ -145,6 +165,11 @@ def differs_between_parameters(text: str) -> bool:
 @lru_cache(maxsize=1024)
 def _parse(text: str) -> Node:
     return _Parser(text).parse()
+
+
+@lru_cache(maxsize=1024)
+def _parse_list(text: str) -> Callable[[ParameterContext | None], ListValue]:
+    return _Parser(text).parse_list()
 
 
 class _Parser:
@@ -165,6 +190,44 @@ class _Parser:
         if kind:
             raise self._not_understood(token)
         return node
+
+    def parse_list(self) -> "ListNode":
+        """Parse a list, or another value."""
+        node = self._element()
+        kind, token = self._peek()
+        if kind:
+            raise self._not_understood(token)
+        return node
+
+    def _element(self) -> "ListNode":
+        opening = self._peek()[1]
+        if opening != "[" and not (opening == "(" and self._is_tuple()):
+            return self._value()
+        self._position += 1
+        closing = "]" if opening == "[" else ")"
+        nodes: list[ListNode] = []
+        with self._deeper():
+            while self._peek()[1] != closing:
+                nodes.append(self._element())
+                if self._peek()[1] == ",":
+                    self._position += 1
+                elif self._peek()[1] != closing:
+                    raise BadValue(f"`{opening}` is not closed")
+        self._position += 1
+        make = Bracketed if opening == "[" else tuple
+        return lambda parameter: make(node(parameter) for node in nodes)
+
+    def _is_tuple(self) -> bool:
+        """Return whether the parentheses that open here have a comma of their own, or nothing, inside."""
+        depth = 0
+        for place in range(self._position, len(self._tokens)):
+            token = self._tokens[place][1]
+            depth += (token in ("(", "[")) - (token in (")", "]"))
+            if depth == 0:
+                return place == self._position + 1
+            if depth == 1 and token == ",":
+                return True
+        return False
 
     def _peek(self) -> tuple[str, str]:
         return self._tokens[self._position] if self._position < len(self._tokens) else ("", "")

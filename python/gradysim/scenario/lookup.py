@@ -13,7 +13,12 @@ from typing import NamedTuple
 
 from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, is_fully_qualified
-from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
+from gradysim.scenario.expressions import (
+    ParameterContext,
+    differs_between_parameters,
+    parse_list,
+    parse_value,
+)
 from gradysim.scenario.functions import Value, text_of
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.parameter_types import ParameterType, Scalar
@@ -380,7 +385,8 @@ def read_scalar(
         this = f"that is {entry.text}: " if is_of_one_run else ""
         if parameter is not None:
             seed = f" with seed {parameter.seed}" if parameter.has_drawn else ""
-            this += f"{f'that is {text_of(written)} ' if written is not None else ''}for {path}{seed}: "
+            that = "" if written is None or kind.is_list else f"that is {text_of(written)} "
+            this += f"{that}for {path}{seed}: "
         elif path and not is_fully_qualified(entry.key, path.partition(".")[2]):
             this += f"for {path}: "
         raise error.at(entry.source, prefix=this, expected=kind.expected) from error
@@ -391,6 +397,8 @@ def _value_of(entry: Entry, kind: ParameterType, parameter: ParameterContext | N
     needs_no_quotes = kind.is_text and entry.source.is_override
     if needs_no_quotes and (entry.text in kind.names or not _LIKE_AN_EXPRESSION.search(entry.text)):
         return entry.text
+    if kind.is_list:
+        return parse_list(entry.text, parameter)  # type: ignore[return-value]
     return parse_value(entry.text, parameter)
 
 

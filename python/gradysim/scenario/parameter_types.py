@@ -34,6 +34,7 @@ class ParameterType:
         is_file: Whether the string is the name of a file, relative to the .ini file.
         unit: For a list of keys: the unit, or what it is instead ("integer").
         show: Writes a stored value in the format of a file, in `unit`.
+        is_list: Whether it is a list or a tuple.
         has_all_between: Whether every value between two valid values is valid, whatever else the file says.
     """
 
@@ -45,6 +46,7 @@ class ParameterType:
     unit: str = ""
     show: Callable[[Scalar], str] = str
     has_all_between: bool = False
+    is_list: bool = False
 
 
 @dataclass(frozen=True)

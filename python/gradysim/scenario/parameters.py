@@ -6,10 +6,12 @@ import types
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache, lru_cache, partial, wraps
+from typing import Any
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.functions import Value
+from gradysim.scenario.expressions import Bracketed
+from gradysim.scenario.functions import Value, text_of
 from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.parameter_types import (
     ParameterType,
@@ -109,7 +111,47 @@ def _kind_of(cls: type[IProtocol], name: str, default: object, annotation: objec
         return _float_without_unit(name) if unit is None else number_in(unit)
     if type(default) is int:
         return _integer_of(name, default, unit, is_native=issubclass(cls, NativeProtocol))
+    for kind in (list, tuple):
+        if type(default) is kind:
+            return _list_of(name, kind, unit, is_float)
     return _TEXT if type(default) is str else None
+
+
+_LISTS: dict[object, str] = {list: "a list such as [1, 2]", tuple: "a tuple such as (1, 2)"}
+
+
+@cache
+def _list_of(name: str, kind: Callable[..., Any], unit: str | None, is_float: bool) -> ParameterType:
+    """Take lists or tuples. Numbers are floats if the annotation has `float`, or else as they are written."""
+    number = _float_without_unit(name) if unit is None else number_in(unit)
+
+    def convert(value: Any) -> Any:
+        if not isinstance(value, tuple):
+            raise BadValue(f"`{text_of(value)}` is a single value")
+        items = tuple(map(element, value))
+        return Bracketed(items) if kind is list else items
+
+    def element(value: Any) -> Any:
+        if isinstance(value, tuple):
+            return type(value)(map(element, value))
+        if not isinstance(value, Quantity):
+            return value
+        if unit is None and value.unit is None and not is_float and isinstance(value.number, int):
+            return value.number
+        return number.convert(value)
+
+    return ParameterType(_LISTS[kind], convert, is_list=True)
+
+
+def _as_written(value: Any) -> Any:
+    """Return a value with lists instead of `Bracketed`."""
+    if isinstance(value, Bracketed):
+        return list(map(_as_written, value))
+    return tuple(map(_as_written, value)) if isinstance(value, tuple) else value
+
+
+def _types_in(value: Any) -> Any:
+    return (type(value), *map(_types_in, value)) if isinstance(value, tuple) else type(value)
 
 
 @cache
@@ -169,14 +211,16 @@ def parametrize(cls: type[IProtocol], parameters: Mapping[str, object]) -> type[
     if _SUBCLASSES not in vars(cls):  # stored in their class, so that they are freed together
         setattr(cls, _SUBCLASSES, lru_cache(maxsize=1024)(partial(_parametrized, cls)))
     subclass: type[IProtocol] = vars(cls)[_SUBCLASSES](
-        tuple((name, type(value), value) for name, value in sorted(parameters.items()))
+        tuple((name, _types_in(value), value) for name, value in sorted(parameters.items()))
     )
     return subclass
 
 
-def _parametrized(cls: type[IProtocol], parameters: tuple[tuple[str, type, object], ...]) -> type[IProtocol]:
+def _parametrized(
+    cls: type[IProtocol], parameters: tuple[tuple[str, object, object], ...]
+) -> type[IProtocol]:
     """Make the subclass. The types are part of the cache's key, since 1, 1.0 and True are equal."""
-    values = {name: value for name, _, value in parameters}
+    values = {name: _as_written(value) for name, _, value in parameters}
     constructors = {
         base: constructor
         for base in cls.__mro__

@@ -81,6 +81,7 @@ def test_are_public_plain_class_attributes() -> None:
         "text",
         "flag",
         "register",
+        "waypoints",
     }
 
 
