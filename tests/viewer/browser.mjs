@@ -1,6 +1,8 @@
 // Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
-// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, picture, screenshot, color}, or
+// {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, picture, screenshot, color,
+// within}, or
 // {url, beside} for a page with two replays, of which the first one gets a key. `values` are expressions.
+// `within` is how far a pixel's color may be from `color`, summed over red, green and blue (default 40).
 // With `picture`, `screenshot` or `color` it draws the page, which takes seconds.
 // `url` instead of `file`, the time `after` which to look, `pause`, and `kill`, [pid, signal], are for a run that goes on.
 // Writes one object to standard output.
@@ -71,7 +73,7 @@ async function look() {
 async function draw() {
   said.picture = (await page.locator("canvas.scene").screenshot()).toString("base64");
   const picture = await page.screenshot(asked.screenshot ? { path: asked.screenshot } : {});
-  Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0]]));
+  Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0], asked.within ?? 40]));
 }
 
 /** Press a key, or `{click: selector}`, `{choose: name of a node}`, `{until: text}`. */
@@ -119,7 +121,7 @@ async function pressBeside(key) {
 }
 
 /** How many colors a picture has, and how many pixels of it are near one color. */
-async function countColors([base64, [red, green, blue]]) {
+async function countColors([base64, [red, green, blue], within]) {
   const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
   const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
   const { data } = (() => {
@@ -133,7 +135,7 @@ async function countColors([base64, [red, green, blue]]) {
   for (let at = 0; at < data.length; at += 4) {
     colors.add((data[at] << 16) | (data[at + 1] << 8) | data[at + 2]);
     const off = Math.abs(data[at] - red) + Math.abs(data[at + 1] - green) + Math.abs(data[at + 2] - blue);
-    if (off < 40) near += 1;
+    if (off < within) near += 1;
   }
   return { colors: colors.size, near_pixels: near };
 }

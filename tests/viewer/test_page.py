@@ -40,6 +40,56 @@ class Says(Quiet):
         for message in ("nothing", "<b>needle</b> " + "x" * 300):
             self.provider.send_communication_command(BroadcastMessageCommand(message))
 """
+FLIES = """
+from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
+
+class Flies(Quiet):
+    def initialize(self):
+        self.provider.schedule_timer("", 100)
+
+    def handle_timer(self, timer):
+        self.provider.send_mobility_command(GotoCoordsMobilityCommand(1e5, 0, 0))
+"""
+BEACON = """
+from gradysim.protocol.messages.communication import BroadcastMessageCommand
+
+class Beacon(Quiet):
+    def initialize(self):
+        self.handle_timer("")
+
+    def handle_timer(self, timer):
+        self.provider.send_communication_command(BroadcastMessageCommand("beacon"))
+        self.provider.schedule_timer("", self.provider.current_time() + 0.01)
+"""
+SCENE = [0xF6, 0xF7, 0xF8]
+# The box of the names of nodes: its sides in pixels, and which share of it is covered.
+NAMES = """(() => {
+  const canvas = document.querySelector("canvas.labels");
+  const [width, height] = [canvas.width, canvas.height - 45];  // without the scale
+  const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
+  const covered = [...Array(width * height).keys()].filter((pixel) => data[4 * pixel + 3] > 100);
+  const [x, y] = [covered.map((pixel) => pixel % width), covered.map((pixel) => Math.floor(pixel / width))];
+  const [left, right] = [Math.min(...x), Math.max(...x) + 1];
+  const area = (right - left) * (Math.max(...y) + 1 - Math.min(...y));
+  return { left, right, width, share: covered.length / area, pixels: covered.length };
+})()"""
+# The lowest contrast of the texts of frames that lie ahead.
+CONTRAST = """(() => {
+  const rgb = (color) => color.match(/[\\d.]+/g).slice(0, 3).map(Number);
+  const luminance = (color) => color
+    .map((part) => (part /= 255) <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, part, index) => sum + part * [0.2126, 0.7152, 0.0722][index], 0);
+  const panel = rgb(getComputedStyle(document.body).backgroundColor);
+  const contrasts = [...document.querySelectorAll(".frames .later span")].map((text) => {
+    let opacity = 1;
+    for (let one = text; one; one = one.parentElement) opacity *= getComputedStyle(one).opacity;
+    const mix = (part, index) => opacity * part + (1 - opacity) * panel[index];
+    const ink = rgb(getComputedStyle(text).color).map(mix);
+    const [dark, light] = [luminance(ink), luminance(panel)].sort((a, b) => a - b);
+    return (light + 0.05) / (dark + 0.05);
+  });
+  return Math.min(...contrasts);
+})()"""
 PAINTED = [0xFF, 0x00, 0xFF]
 SPEED_MPS = 10.0
 
@@ -179,6 +229,69 @@ def test_a_message_is_shown_and_found(browser, tmp_path):
     show = {"click": ".details button:text('Show all')"}
     said = browser(tmp_path / "run.html", address=filtered, keys=["ArrowRight", show], values={"text": shown})
     assert said["values"]["text"] == "<b>needle</b> " + "x" * 300
+
+
+def run_of(directory, source, duration_s, more="", run=PrototypeRun):
+    """Write the replay of one node that runs the last class of a source, or of more nodes."""
+    (directory / "one.py").write_text(QUIET + source, encoding="utf-8")
+    protocol = re.findall(r"class (\w+)", source)[-1]
+    ini = f"[General]\nsim-time-limit = {duration_s}s\n{more}*.uavs.count = 1\n"
+    ini += f'*.uavs[*].protocol.class = "one.py:{protocol}"\n'
+    (directory / "one.ini").write_text(ini, encoding="utf-8")
+    run(load_scenarios(directory / "one.ini")[0], replay=ReplayWriter(directory / "one.html")).execute()
+    return directory / "one.html"
+
+
+@pytest.mark.parametrize("width", some([390, 1280]))
+def test_the_first_view_has_all_places_and_names_of_the_run(browser, tmp_path, width):
+    replay = run_of(tmp_path, FLIES, 170)
+    said = browser(replay, address="#t=170", width=width, values={"names": NAMES})
+    names = said["values"]["names"]
+    assert 0.6 * names["width"] < names["left"] < names["right"] - 40 < names["width"] - 42
+
+
+def test_lines_go_on_behind_names(browser, tmp_path):
+    said = browser(run_of(tmp_path, FLIES, 1), values={"names": NAMES})
+    assert said["values"]["names"]["share"] > 0.95
+
+
+def test_zooming_to_a_frame_shows_its_interferers(browser, tmp_path):
+    three = "*.uavs.count = 2\n*.uavs[*].mobility.lineStepX = 100m\n*.sensors.count = 1\n"
+    three += '*.sensors[0].mobility.initialX = 50m\n*.sensors[0].protocol.class = "one.py:Quiet"\n'
+    three += "*.*.wlan[*].radio.transmitter.communicationRange = 60m\n"
+    replay = run_of(tmp_path, BEACON, 1, three, IntegratedRun)
+    said = browser(
+        replay,
+        keys=["Shift+ArrowRight", {"until": "with uavs["}, "z"],
+        values={"names": NAMES},
+    )
+    assert said["values"]["names"]["pixels"] > 2000
+
+
+def test_a_large_range_does_not_color_the_picture(town, browser):
+    asked = {"color": SCENE, "within": 3}
+    without = browser(town, address="#t=0.05&filter=node:base", **asked)
+    chosen = browser(town, address="#t=0.05&filter=node:base&node=drones[1]", **asked)
+    assert chosen["near_pixels"] > 0.9 * without["near_pixels"]
+
+
+def test_a_sender_has_few_rings(browser, tmp_path):
+    replay = run_of(tmp_path, BEACON, 2)
+    assert browser(replay, address="#t=1.5", keys=["+"] * 3, color=SCENE)["near_pixels"] > 800_000
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_frames_ahead_can_be_read(zigzag, browser, dark):
+    assert browser(zigzag, dark=dark, values={"contrast": CONTRAST})["values"]["contrast"] > 4.5
+
+
+def test_a_replay_opens_with_the_outcomes_of_the_whole_run(zigzag, browser):
+    replay = read_replay(zigzag)
+    said = browser(zigzag, values={"speed": "document.querySelector('select[aria-label=Speed]').value"})
+    frames = len(replay.table("frames")["node"])
+    assert "Outcomes of the whole run" in said["text"]
+    assert f"Frames: {frames:,}." in said["text"]
+    assert said["values"]["speed"] == "5"  # 250 s
 
 
 @pytest.mark.verify

@@ -14,6 +14,9 @@ import { State } from "./state";
 const MOST_FRAMES = 400;
 const MOST_LINES = 9000;
 
+/** Of one sender at once. */
+const MOST_RINGS = 3;
+
 /** How long a frame stays visible, in seconds of the wall clock. */
 const SHOWN_S = 0.6;
 
@@ -78,10 +81,15 @@ export class Air {
     frames = frames.slice(0, MOST_FRAMES).filter((frame) => !isSameFrame(frame, state.frame));
     const lines = frames.reduce((sum, { chunk, row }) => sum + chunk.frames.table.receptions[row], 0);
     const crowd = Math.min(1, Math.sqrt(60 / Math.max(1, lines)));
+    // The first frame of a sender in each of these intervals has a ring, so that rings stay while they grow.
+    const interval = longestNs / MOST_RINGS;
+    const ringed = new Map(frames.map((frame) => [`${senderOf(frame)} ${Math.floor(startOf(frame) / interval)}`, frame]));
+    const withRing = new Set(ringed.values());
     let left = MOST_LINES;
     for (const frame of frames) {
       const { duration_ns } = frame.chunk.frames.table;
       const age = Math.min(1, (timeNs - startOf(frame)) / Math.max(longestNs, duration_ns[frame.row]));
+      if (withRing.has(frame)) this.drawRing(picture, frame, age, crowd);
       left -= this.drawFrame(picture, frame, age, crowd, left);
     }
     if (state.frame !== null) this.drawChosenFrame(picture, state.frame);
@@ -92,7 +100,7 @@ export class Air {
   /** Draw a frame of an age from 0 to 1; return how many lines that took. */
   private drawFrame(picture: Picture, frame: Frame, age: number, crowd: number, most: number): number {
     const { state, filter } = picture;
-    const { sender, from, receptions, radius } = this.shapeOf(frame);
+    const { sender, from, receptions } = this.shapeOf(frame);
     let lines = 0;
     for (const { reception, to } of receptions) {
       const { receiver, outcome } = reception;
@@ -108,10 +116,14 @@ export class Air {
         this.addLine(this.delivered, from, to, color, calm, 1.2, 0);
       }
     }
+    return lines;
+  }
+
+  private drawRing({ state }: Picture, frame: Frame, age: number, crowd: number): void {
+    const { sender, from, radius } = this.shapeOf(frame);
     const isOther = state.node !== null && sender !== state.node;
     const strength = (1 - age) * (isOther ? 0.25 : 0.9) * Math.max(0.35, crowd);
     this.rings.add(from.x, from.y, from.z, Math.max(age * radius, 0.01), ...this.colors[0], strength, 1.5);
-    return lines;
   }
 
   private drawChosenFrame(picture: Picture, frame: Frame): void {

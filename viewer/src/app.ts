@@ -4,7 +4,7 @@ import { runDialog, subtitleOf, titleOf, warningOf } from "./about";
 import { Address, findNumber, readAddress } from "./address";
 import { Neighbors } from "./beside";
 import { SLANT } from "./camera";
-import { Clock } from "./clock";
+import { Clock, speedFor } from "./clock";
 import { Actions, Controls } from "./controls";
 import { make } from "./dom";
 import { Filter, parseFilter } from "./filter";
@@ -146,7 +146,8 @@ export class App implements Actions {
   zoom(): void {
     const { frame, node } = this.store.now;
     if (frame !== null) {
-      const nodes = [senderOf(frame), ...frame.chunk.frames.receptions(frame.row).map(({ receiver }) => receiver)];
+      const receivers = frame.chunk.frames.receptions(frame.row).map(({ receiver }) => receiver);
+      const nodes = [senderOf(frame), ...receivers, ...this.chosen.interferers.map((interferer) => interferer.node)];
       this.scene.zoomTo(nodes.flatMap((one) => [...this.replay.position(one, frame)]));
     } else if (node !== null) {
       const [x, y, z] = this.replay.positions(this.clock.timeNs).subarray(node * 3, node * 3 + 3);
@@ -254,12 +255,22 @@ export class App implements Actions {
   }
 
   private async open(): Promise<void> {
+    const { source } = this.replay;
+    if (!source.isLive) {
+      await this.replay.sumAll();
+      this.clock.speed = speedFor(this.clock.endNs);
+    }
     await this.replay.load(0);
-    const chunk = this.replay.chunk(0);
-    const ends = chunk ? [...chunk.legs.ends()].flat() : [];
-    this.scene.fit([...ends, ...(this.replay.run.extent_m ?? [])], SLANT);
+    this.scene.fit(this.extent(), SLANT);
     await this.goToAddress();
     requestAnimationFrame((nowMs) => this.tick(nowMs));
+  }
+
+  /** What the first picture shows: where nodes are during the whole run, as far as it is known. */
+  private extent(): number[] {
+    const boxes = this.replay.chunks.flatMap(({ header }) => header.extent_m ?? []);
+    const nodes = boxes.length ? boxes : [...(this.replay.chunk(0)?.legs.ends() ?? [])].flat();
+    return [...nodes, ...(this.replay.run.extent_m ?? [])];
   }
 
   private tick(nowMs: number): void {

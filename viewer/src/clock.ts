@@ -3,6 +3,11 @@
 /** Slowest and fastest, in simulated seconds for a second. */
 export const SPEEDS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 
+/** Return the slowest speed at which a run is over in 100 s: a whole replay takes about a minute. */
+export function speedFor(durationNs: number): number {
+  return SPEEDS.find((speed) => durationNs / speed <= 100e9) ?? SPEEDS[SPEEDS.length - 1];
+}
+
 /** How long a clock that follows takes to get to the end, in seconds. */
 const CATCH_UP_S = 0.25;
 

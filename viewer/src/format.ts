@@ -64,6 +64,8 @@ export interface Header {
   density: { bin_ns: number; frames: number[]; lost: number[] };
   outcomes: { node: number[]; outcome: number[]; count: number[] };
   sent: Record<"node" | "destination" | "frames" | "receptions" | "unnoticed", number[]>;
+  /** Two opposite corners of the box that nodes move in: x, y, z, x, y, z. Snapshots have none. */
+  extent_m?: number[];
   tables: Record<string, { rows: number }>;
 }
 

@@ -15,6 +15,7 @@ export class Inspector {
   readonly element = make("section", { "aria-label": "Inspector" });
   private readonly choice = make("select", { "aria-label": "Node", title: "Choose a node" });
   private readonly facts = make("p", { class: "message" });
+  private readonly outcomesTitle = make("h3", { class: "of-frames" });
   private readonly outcomes = make("div", { class: "outcomes of-frames" });
   private readonly outcomesNote = make("p", { class: "message of-frames" });
   private readonly charts: Charts;
@@ -57,7 +58,7 @@ export class Inspector {
     this.element.append(
       make("div", { class: "row" }, make("h2", {}, "Node"), this.choice),
       this.facts,
-      make("h3", { class: "of-frames" }, "Outcomes so far"),
+      this.outcomesTitle,
       this.outcomes,
       this.outcomesNote,
       this.ofNode,
@@ -112,7 +113,9 @@ export class Inspector {
 
   private showOutcomes(timeNs: number, node: number | null): void {
     const { outcomes, recorded } = this.replay.run;
-    const tally = this.replay.tally(timeNs);
+    const whole = timeNs === 0 ? this.replay.whole : null;
+    const tally = whole ?? this.replay.tally(timeNs);
+    setText(this.outcomesTitle, whole ? "Outcomes of the whole run" : "Outcomes so far");
     const { counts } = tally;
     const sums = outcomes.map(() => 0);
     for (let place = 0; place < counts.length; place += 1)

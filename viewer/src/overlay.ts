@@ -28,7 +28,7 @@ export class Overlay {
     context.lineWidth = 3;
     context.strokeStyle = styleColor("--scene");
     context.fillStyle = inkOn(styleColor("--scene"));
-    if (state.labels) this.drawLabels(context, state.node, look.nameless);
+    if (state.labels) this.drawLabels(context, width, state.node, look.nameless);
     this.drawScale(context, height);
   }
 
@@ -65,25 +65,34 @@ export class Overlay {
     }
   }
 
-  /** Near nodes first; a name that would lie on another one is left out, but for that of the chosen node. */
-  private drawLabels(context: CanvasRenderingContext2D, chosen: number | null, hidden: Set<number>): void {
+  /** To the right of their nodes, or to the left if the picture ends there. Near nodes first; a name that would lie on another one is left out, but for that of the chosen node. */
+  private drawLabels(
+    context: CanvasRenderingContext2D,
+    width: number,
+    chosen: number | null,
+    hidden: Set<number>,
+  ): void {
+    const [ink, scene] = [context.fillStyle, context.strokeStyle];
     const named = [...this.places].filter(([node]) => node === chosen || !hidden.has(node));
     const nodes = named.sort((a, b) => a[1].depth - b[1].depth);
     nodes.sort((a, b) => Number(b[0] === chosen) - Number(a[0] === chosen));
     const taken: [number, number, number, number][] = nodes.map(([, { x, y }]) => [x - 5, y - 5, x + 5, y + 5]);
     for (const [node, { x, y }] of nodes) {
       const name = this.replay.nameOf(node);
-      const [left, middle] = [x + 10, y];
-      const box: [number, number, number, number] = [
-        left - 2,
-        middle - 8,
-        left + this.widthOf(context, name) + 4,
-        middle + 8,
-      ];
+      const wide = this.widthOf(context, name);
+      const [left, middle] = [x + 14 + wide <= width ? x + 10 : x - 10 - wide, y];
+      const box: [number, number, number, number] = [left - 3, middle - 8, left + wide + 3, middle + 8];
       const overlaps = taken.some((o) => o[0] < box[2] && box[0] < o[2] && o[1] < box[3] && box[1] < o[3]);
       if (overlaps && node !== chosen) continue;
       taken.push(box);
-      context.strokeText(name, left, middle);
+      // Lines go on behind names, not through them.
+      context.fillStyle = scene;
+      context.globalAlpha = 0.8;
+      context.beginPath();
+      context.roundRect(box[0], box[1], wide + 6, 16, 4);
+      context.fill();
+      context.fillStyle = ink;
+      context.globalAlpha = 1;
       context.fillText(name, left, middle);
     }
   }

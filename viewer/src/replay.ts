@@ -79,6 +79,9 @@ export class Replay {
   /** The outcome of a reception that is not noticed. */
   readonly unnoticed: number;
 
+  /** What became of all frames of a run that has ended, if `sumAll` was called. */
+  whole: Tally | null = null;
+
   private readonly decoded = new Map<number, Chunk>(); // the one that was used last is the last one
   private readonly loading = new Map<number, Promise<Chunk>>();
   private earlier: { chunks: number; tally: Tally };
@@ -233,6 +236,11 @@ export class Replay {
       if (chunk !== null) tally.addFrames(chunk.frames, chunk.frames.rowsUntil(timeNs));
     }
     return tally;
+  }
+
+  async sumAll(): Promise<void> {
+    await this.load(this.endNs);
+    this.whole = this.tally(this.endNs);
   }
 
   /** Whether the run ended before the frame did. */

@@ -50,23 +50,27 @@ export function lines(order: number): Instances {
 
 const RING_VERTEX = `
 attribute vec3 center; attribute float radius; attribute vec4 color; attribute float width;
-varying vec2 vPlace; varying vec4 vColor; varying float vWidth;
-uniform float pixelRatio;
+varying vec2 vPlace; varying vec4 vColor; varying float vWidth; varying float vFill;
+uniform vec2 resolution; uniform float pixelRatio;
 void main() {
   vPlace = position.xy * 1.05;
+  // From half the diagonal of the picture on, the edge may be out of view: the inside fades before.
+  float depth = max(0.1, -(modelViewMatrix * vec4(center, 1.0)).z);
+  float radiusPx = radius * projectionMatrix[1][1] / depth * resolution.y * 0.5;
+  vFill = 0.06 * clamp(2.0 - radiusPx / length(resolution) * 4.0, 0.0, 1.0);
   vColor = color;
   vWidth = width * pixelRatio;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(center + vec3(vPlace * radius, 0.0), 1.0);
 }`;
 
 const RING_FRAGMENT = `
-varying vec2 vPlace; varying vec4 vColor; varying float vWidth;
+varying vec2 vPlace; varying vec4 vColor; varying float vWidth; varying float vFill;
 void main() {
   float distance = length(vPlace);
   float pixel = max(fwidth(distance), 1e-6);
   float edge = abs(distance - 1.0) / pixel;
   float line = clamp(vWidth * 0.5 + 0.5 - edge, 0.0, 1.0);
-  float alpha = vColor.a * max(line, distance < 1.0 ? 0.06 : 0.0);
+  float alpha = vColor.a * max(line, distance < 1.0 ? vFill : 0.0);
   if (alpha < 0.002) discard;
   gl_FragColor = vec4(vColor.rgb, alpha);
 }`;

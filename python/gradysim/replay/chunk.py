@@ -110,6 +110,7 @@ def pack(chunk: RawChunk) -> bytes:
         "density": chunk.density,
         "outcomes": chunk.outcomes,
         "sent": _sent(chunk),
+        "extent_m": _extent_m(chunk),
         "tables": {},
     }
     packed: list[bytes] = []
@@ -168,6 +169,23 @@ def _sent(chunk: RawChunk) -> Sent:
         "receptions": receptions,
         "unnoticed": unnoticed_by,
     }
+
+
+def _extent_m(chunk: RawChunk) -> list[float]:
+    """Return the smallest and the largest x, y and z of all nodes, in meters, which the first view shows."""
+    time_ns, duration_ns, node, *ends = (
+        _numbers(column, chunk.columns["legs"][column.name]) for column in TABLES["legs"]
+    )
+    starts, targets = ends[:3], ends[3:]
+    last = {who: row for row, who in enumerate(node)}.values()
+    extent = []
+    for start, target in zip(starts, targets, strict=True):
+        # A leg that the chunk ends, or a later one, may not reach its target.
+        for row in last:
+            share = min(1.0, (chunk.end_ns - time_ns[row]) / max(duration_ns[row], 1))
+            start.append(start[row] + share * (target[row] - start[row]))
+        extent.append((min(start, default=0.0), max(start, default=0.0)))
+    return [value for corner in zip(*extent, strict=True) for value in corner]
 
 
 def unpack(data: bytes) -> Chunk:

@@ -51,6 +51,22 @@ def test_the_header_has_the_sums_of_each_sender():
     }
 
 
+def test_the_header_has_the_box_that_nodes_move_in():
+    # The second leg of node 1 is not over when the chunk ends, at 7 ns.
+    legs = [
+        {"node": 1, "time_ns": 1, "duration_ns": 2, "x0": 3.0, "x1": 5.0},
+        {"node": 2, "time_ns": 1, "duration_ns": 9, "y0": -1.0, "y1": -1.0},
+        {"node": 1, "time_ns": 3, "duration_ns": 8, "x0": 5.0, "x1": 13.0},
+    ]
+    empty = chunk_of("events", [])
+    columns = {
+        column.name: raw(column, [leg.get(column.name, 0) for leg in legs]) for column in TABLES["legs"]
+    }
+    packed = pack(replace(empty, columns={**empty.columns, "legs": columns}))
+    header, _ = json.JSONDecoder().raw_decode(packed[4:].decode(errors="replace"))
+    assert header["extent_m"] == [0, -1, 0, 9, 0, 0]
+
+
 def test_a_delta_column_has_differences():
     assert raw(Column("time_ns", "u64", delta=True), [3, 3, 10]) == array("Q", [3, 0, 7]).tobytes()
 
