@@ -294,6 +294,16 @@ def test_a_replay_opens_with_the_outcomes_of_the_whole_run(zigzag, browser):
     assert said["values"]["speed"] == "5"  # 250 s
 
 
+def test_buttons_say_what_they_do(zigzag, browser):
+    titles = "[...document.querySelectorAll('.tools button')].map((button) => button.title)"
+    said = browser(zigzag, values={"titles": titles}, keys=["?", {"until": "clear the selection"}])
+    assert {
+        "View from above, or at an angle again (t)",
+        "Zoom in on the chosen frame or node (z)",
+        "Show trails: the path of the last 30 s (r)",
+    } <= set(said["values"]["titles"])
+
+
 @pytest.mark.verify
 def test_a_wrong_filter_says_so(zigzag, browser):
     browser(zigzag, fill="color:red", until='"color" is not a key')

@@ -68,12 +68,12 @@ export class Controls {
     );
     this.addToggle("isFollowing", "Follow", "Follow the chosen node (f)");
     this.tools.append(
-      button("Top view", "Look from above, or slanting again (t)", () => actions.toggleTop()),
+      button("Top view", "View from above, or at an angle again (t)", () => actions.toggleTop()),
       button("Show all", "Show all nodes (a)", () => actions.showAll()),
-      button("Zoom", "Show the chosen frame or node from near (z)", () => actions.zoom()),
+      button("Zoom in", "Zoom in on the chosen frame or node (z)", () => actions.zoom()),
     );
     this.addToggle("labels", "Names", "Show the names of nodes (l)");
-    this.addToggle("trails", "Trails", "Show the last 30 s of each way (r)");
+    this.addToggle("trails", "Trails", "Show trails: the path of the last 30 s (r)");
     const run = button("Run", "What was run (i)", () => actions.showRun());
     run.classList.add("of-frames");
     this.tools.append(run, button("Keys", "Keys (?)", () => actions.showKeys()));

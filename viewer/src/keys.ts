@@ -14,12 +14,12 @@ const KEYS: [keys: string, words: string][] = [
   ["Home End", "start, end"],
   ["n p", "choose the next, previous node"],
   ["f", "follow the chosen node"],
-  ["t a z", "look from above; show all nodes; show the chosen frame or node from near"],
-  ["l r", "names, trails"],
+  ["t a z", "view from above; show all nodes; zoom in on the chosen frame or node"],
+  ["l r", "show names, show trails"],
   ["/", "filter the frames"],
   ["i ?", "what was run; these keys"],
   ["Tab Enter", "go to a button, press it"],
-  ["Esc", "choose nothing"],
+  ["Esc", "clear the selection"],
 ];
 
 export function listenToKeys(controls: Controls, actions: Actions, clock: Clock): void {

@@ -12,7 +12,7 @@ export interface Source {
   readonly isLive: boolean;
   /** Whether the run does not wait for the page, so that the page has to follow. */
   readonly follows: boolean;
-  /** Whether the process of the run has gone before its end. */
+  /** Whether the process of the run ended before the run did. */
   readonly isLost: boolean;
   /** Called when something of this has changed. */
   onChange: (() => void) | null;
