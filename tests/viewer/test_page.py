@@ -250,6 +250,10 @@ def test_the_first_view_has_all_places_and_names_of_the_run(browser, tmp_path, w
     assert 0.6 * names["width"] < names["left"] < names["right"] - 40 < names["width"] - 42
 
 
+def test_the_first_view_has_all_corners_of_the_run(town, browser):
+    assert browser(town, address="#t=0.1", values={"names": NAMES})["values"]["names"]["pixels"] > 7800
+
+
 def test_lines_go_on_behind_names(browser, tmp_path):
     said = browser(run_of(tmp_path, FLIES, 1), values={"names": NAMES})
     assert said["values"]["names"]["share"] > 0.95

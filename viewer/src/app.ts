@@ -268,7 +268,10 @@ export class App implements Actions {
 
   /** What the first picture shows: where nodes are during the whole run, as far as it is known. */
   private extent(): number[] {
-    const boxes = this.replay.chunks.flatMap(({ header }) => header.extent_m ?? []);
+    const boxes = this.replay.chunks.flatMap(({ header: { extent_m: box = [] } }) => {
+      const axis = (first: number): number[] => (box.length ? [box[first], box[first + 3]] : []);
+      return axis(0).flatMap((x) => axis(1).flatMap((y) => axis(2).flatMap((z) => [x, y, z])));
+    });
     const nodes = boxes.length ? boxes : [...(this.replay.chunk(0)?.legs.ends() ?? [])].flat();
     return [...nodes, ...(this.replay.run.extent_m ?? [])];
   }
