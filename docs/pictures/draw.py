@@ -82,7 +82,7 @@ def draw_shot(folder: Path, shot: Shot) -> None:
 
 def save(picture: Image.Image, name: str) -> None:
     """Write a picture of a guide."""
-    few_colors = picture.quantize(128, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few_colors = picture.quantize(256, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     few_colors.save(HERE / f"{name}.png", optimize=True)
 
 
