@@ -143,8 +143,8 @@ class RunOptions:
     Grid Engine or MPI say. auto/N: for PBS and Kubernetes, which do not say N."""
 
     mode: Mode = "integrated"
-    """The 802.11 network of the compiled engine, or the plain simulator in Python. Their messages reach 786 m
-    and 60 m by default: `gradysim keys range`."""
+    """The 802.11 network of the compiled engine, or the plain simulator in Python. Broadcasts of a file
+    that sets neither a range nor a power reach 786 m and 60 m: `gradysim keys range`."""
 
     settings: SetOption = ()
 

@@ -110,7 +110,8 @@ PROTOCOL_KEYS: tuple[Key, ...] = (PROTOCOL_CLASS, PROTOCOL_TYPENAME)
 PROTOCOL_PARAMETER = _protocol(
     "ATTRIBUTE",
     si_number(),
-    "A public class attribute of the protocol, int, float, str or bool. Quantities become SI units, or the"
+    "A public class attribute of the protocol: int, float, str, bool, or a list or tuple of these"
+    " (docs/reference/values.md). Quantities become SI units, or the"
     " unit of the"
     ' annotation, `Annotated[float, "ms"]`, or the unit in which the name ends:'
     f" {', '.join(f'`_{unit.lower()}`' for unit in UNITS_IN_NAMES)}."
