@@ -9,7 +9,6 @@ const OUTCOMES: Record<string, { color: Pair; dash: number }> = {
   delivered: { color: ["#5f86ad", "#7fa3c7"], dash: 0 },
   below_sensitivity: { color: ["#9a9a9a", "#7a7a7a"], dash: 4 },
   in_air: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
-  out_of_range: { color: ["#9a9a9a", "#7a7a7a"], dash: 0 },
   interference: { color: ["#c1121f", "#ff4d5e"], dash: 8 },
   receiver_transmitting: { color: ["#d9480f", "#ff7a4d"], dash: 5 },
   receiver_locked: { color: ["#7a3fb0", "#b795f0"], dash: 5 },

@@ -17,8 +17,8 @@ const LONGEST_FRAME_NS = 2e9;
 
 const PLAIN = plainLook();
 
-const OF_PROTOTYPE = ["delivered", "out_of_range", "lost"];
-const NOT_LOST = ["delivered", "in_air", "out_of_range"];
+const OF_PROTOTYPE = ["delivered", "below_sensitivity", "lost"];
+const NOT_LOST = ["delivered", "in_air"];
 
 /** A decoded chunk. */
 export class Chunk {
@@ -94,11 +94,11 @@ export class Replay {
     this.hasFrames = this.run.outcomes.length > 0;
     const { recorded, outcomes, mode } = this.run;
     this.isWhole = recorded === null || recorded.length === this.nodes.size;
-    const isOfEngine = (name: string): boolean => !["out_of_range", "lost", "in_air"].includes(name);
+    const isOfEngine = (name: string): boolean => !["lost", "in_air"].includes(name);
     const isPossible = (name: string): boolean =>
       mode === "prototype" ? OF_PROTOTYPE.includes(name) : isOfEngine(name);
     this.possible = [...outcomes.keys()].filter((outcome) => isPossible(outcomes[outcome]));
-    this.unnoticed = outcomes.indexOf(mode === "prototype" ? "out_of_range" : "below_sensitivity");
+    this.unnoticed = outcomes.indexOf("below_sensitivity");
     this.earlier = { chunks: 0, tally: this.newTally() };
   }
 

@@ -9,7 +9,7 @@ export class Tally {
   /** Of receptions that were noticed: outcome o at node n is at n * outcomes + o. */
   readonly counts: Float64Array;
 
-  /** How many receptions were not noticed: too weak, or out of range. */
+  /** How many receptions were not noticed, because they were too weak. */
   private unnoticed = 0;
 
   /** How many frames have an outcome at node n: `sent` + `more[n]`. */

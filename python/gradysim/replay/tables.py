@@ -65,12 +65,11 @@ OUTCOMES: Final = (
     "header_error",
     "captured",
     "in_air",
-    "out_of_range",
     "lost",
 )
-"""Names of the outcomes of a reception, by number. The last two occur only in prototype mode."""
+"""Names of the outcomes of a reception, by number. The last one occurs only in prototype mode."""
 
-NOT_LOST: Final = frozenset({"delivered", "in_air", "out_of_range"})
+NOT_LOST: Final = frozenset({"delivered", "in_air"})
 """Outcomes in the table of receptions that are not losses."""
 
 EVENT_KINDS: Final = ("timer", "command", "debug", "info", "warning", "error")
@@ -92,7 +91,7 @@ TABLES: Final[dict[str, tuple[Column, ...]]] = {
         Column("cause", "u32"),  # string: the callback that sent it
         Column("text", "u32"),  # the message: 0 for none, n for row n - 1 of `texts`
         Column("receptions", "u32"),  # number of receivers that noticed it
-        Column("unnoticed", "u32"),  # number of those that did not: below their sensitivity, or out of range
+        Column("unnoticed", "u32"),  # number of those that did not: below their sensitivity
     ),
     # Outcomes at receivers, if they differ from those of the last frame of the same sender and interface
     # in this chunk. Before the first row no receiver notices a frame. `below_sensitivity` occurs here only

@@ -75,7 +75,6 @@ class Trace:
         self._names: Sequence[str] = [node["name"] for node in run["nodes"]]
         self._obstacles: Sequence[str] = [obstacle["name"] for obstacle in run["obstacles"]]
         self._width = name_width(self._names)
-        self._unnoticed = "out_of_range" if run["mode"] == "prototype" else "below_sensitivity"
 
     def wants_chunk(self) -> bool:
         """Return whether it is time for more lines."""
@@ -161,7 +160,7 @@ class Trace:
                 f"delivered at {delivered} of {frames['receptions'][frame] + frames['unnoticed'][frame]}"
             )
         else:
-            outcome = OUTCOMES[outcomes[destination]] if destination in outcomes else self._unnoticed
+            outcome = OUTCOMES[outcomes[destination]] if destination in outcomes else "below_sensitivity"
         parts = [outcome, f"{frames['bytes'][frame]} B"]
         parts += [f"{bitrate_bps / 1e6:g} Mbps"] if bitrate_bps else []
         parts += [f"by {cause}"] if cause else []

@@ -108,6 +108,17 @@ def test_a_unicast_frame_has_the_outcome_at_its_destination(traced, mode):
     assert all("delivered at 0 of 1" in details for *_, event, details in far if event == "tx")
 
 
+def test_a_unicast_frame_beyond_the_range_is_below_the_sensitivity(traced):
+    python = """
+class Tested(Quiet):
+    def initialize(self):
+        self.provider.send_communication_command(SendMessageCommand("hello", 1 - self.provider.get_id()))
+"""
+    lines, _ = traced([0], python, "*.uavs[*].mobility.lineStepX = 100km")
+    (first, *_) = [details for *_, event, details in lines if event == "tx"]
+    assert " to uavs[1]: below_sensitivity, " in first
+
+
 def test_a_lost_frame_names_the_interferer(make_scenario, capsys):
     python = """
 class Tested(Quiet):
