@@ -80,20 +80,6 @@ def run(
     source: "str | os.PathLike[str]",
     config: str = ...,
     *,
-    runs: int,
-    overrides: Iterable[str] = ...,
-    seed: int | None = ...,
-    mode: "Mode" = ...,
-    replay: str | Iterable[str] = ...,
-    progress: bool = ...,
-) -> "RunResult": ...
-
-
-@overload
-def run(
-    source: "str | os.PathLike[str]",
-    config: str = ...,
-    *,
     runs: str | int | Iterable[int] | None = ...,
     overrides: Iterable[str] = ...,
     seed: int | None = ...,
