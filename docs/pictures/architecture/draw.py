@@ -46,7 +46,7 @@ CONTENTS = {
     "showcases": "GrADyS' protocols",
     "viewer": "page in a browser",
     "protocol": "interface, messages, plugins",
-    "html_table": "tables for notebooks",
+    "notebook": "tables and replays there",
     "installation": "check of installed files",
     "proxy_protocol": "bindings; Python protocols",
     "node": "interfaces, native protocols",

@@ -11,8 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
-from gradysim.html_table import html_table
-from gradysim.replay.view import HEIGHT_PX, ReplayView
+from gradysim.notebook import HEIGHT_PX, ReplayView, html_table
 from gradysim.results.delays import Delays, delay_averages, delay_histograms, delay_scalars
 from gradysim.results.outcomes import (
     Counts,

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from gradysim.replay.view import HEIGHT_PX, ReplayView
+from gradysim.notebook import HEIGHT_PX, ReplayView
 from gradysim.results.quantity import averages_of
 from gradysim.results.result import RunResult
 from gradysim.results.tracked_variables import tracked_by_group, variables_of_group
@@ -159,7 +159,7 @@ class RunSummary:
 
         Raises OSError if the run was not recorded.
         """
-        return ReplayView.of_file(self.file.with_suffix(".html"), height_px)
+        return ReplayView(self.file.with_suffix(".html").read_text(encoding="utf-8"), height_px)
 
     @property
     def name(self) -> str:

@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from gradysim.html_table import html_table
+from gradysim.notebook import html_table
 from gradysim.protocol.plain_value import as_float
 from gradysim.results.files import read_run_file
 from gradysim.results.means import Mean, means

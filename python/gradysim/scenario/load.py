@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence, Set
 from pathlib import Path
 from typing import Any, overload
 
-from gradysim.html_table import html_table
+from gradysim.notebook import html_table
 from gradysim.scenario.coverage import Coverage
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector
 from gradysim.scenario.ini import Entry, read_ini, read_overrides

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gradysim.html_table import html_table
+from gradysim.notebook import html_table
 from gradysim.protocol.checked_values import checked_number
 from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.ini import Entry, Section

@@ -1,4 +1,4 @@
-from gradysim.html_table import MOST_ROWS, html_table
+from gradysim.notebook import MOST_ROWS, html_table
 
 CAPTION = "<caption style='text-align: left; white-space: nowrap'>"
 

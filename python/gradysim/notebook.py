@@ -1,4 +1,4 @@
-"""Tables of HTML for notebooks."""
+"""What notebooks show of scenarios and results: tables, and the pages of replays."""
 
 from collections.abc import Collection, Iterable, Sequence
 from html import escape
@@ -8,6 +8,24 @@ MOST_ROWS = 60
 
 _CAPTION = "text-align: left; white-space: nowrap"
 """Otherwise the caption is as narrow as the table."""
+
+HEIGHT_PX = 640
+"""Of a replay."""
+
+
+class ReplayView:
+    """The page of a replay, which a notebook shows as a frame. The notebook then contains the whole page."""
+
+    def __init__(self, page: str, height_px: int) -> None:
+        """`page` is the text of an HTML file of `gradysim run --replay`."""
+        self._page = page
+        self._height_px = height_px
+
+    def _repr_html_(self) -> str:
+        return (
+            f'<iframe title="replay" width="100%" height="{self._height_px}" sandbox="allow-scripts"'
+            f' style="border: 0" srcdoc="{escape(self._page)}"></iframe>'
+        )
 
 
 def html_table(
