@@ -83,7 +83,7 @@ app = App(
 )
 app.register_install_completion_command(help="Install completion for this shell, and end.")
 
-EXAMPLES: dict[str, dict[str, tuple[Callable[..., int], str]]] = {
+COMMANDS: dict[str, dict[str, tuple[Callable[..., int], str]]] = {
     "Write": {
         "new": (make_project, "gradysim new swarm"),
         "check": (check_file, "gradysim check swarm.ini -c Study"),
@@ -115,7 +115,7 @@ EXAMPLES: dict[str, dict[str, tuple[Callable[..., int], str]]] = {
 }
 """{group: {command: its function and an example}}, in the order of the help."""
 
-for _group, _commands in EXAMPLES.items():
+for _group, _commands in COMMANDS.items():
     _shown = Group.create_ordered(_group)
     for _name, (_function, _example) in _commands.items():
         app.command(_function, name=_name, group=_shown, help_epilogue=f"Example: {_example}")

@@ -21,11 +21,10 @@ LogLevel = Literal["debug", "info", "warning", "error"]
 DEFAULT_DIR = Path("results")
 
 FileArgument = Annotated[Path, Parameter(name="FILE", help="The .ini file.")]
-ResultDirArgument = Annotated[Path, Parameter(name="DIR", help="The directory of `run --result-dir`.")]
 ResultsArgument = Annotated[
     Path, Parameter(name="DIR", help="The directory of `run --result-dir`, or a file of `gradysim pack`.")
 ]
-ResultDirOption = Annotated[Path, Parameter(help="The directory of `run --result-dir`.")]
+ResultDir = Annotated[Path, Parameter(help="The directory of `run --result-dir`.")]
 RunsOption = Annotated[
     str | None,
     Parameter(alias="-r", help="Run numbers such as 0..3,5; all runs of the configuration by default."),

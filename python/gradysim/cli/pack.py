@@ -7,12 +7,12 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import LOCKED, OK, say_mistake
-from gradysim.cli.options import Flag, ResultDirArgument
+from gradysim.cli.options import Flag, ResultDir
 from gradysim.cli.study import check_directory
 
 
 def pack_results(
-    directory: ResultDirArgument,
+    directory: Annotated[ResultDir, Parameter(name="DIR")],
     /,
     *,
     output: Annotated[

@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from gradysim.cli.earlier_results import State, states_of
 from gradysim.cli.errors import INCOMPLETE, OK, say_mistake
-from gradysim.cli.options import DEFAULT_DIR, FileArgument, ResultDirOption, RunOptions, StatusOptions
+from gradysim.cli.options import DEFAULT_DIR, FileArgument, ResultDir, RunOptions, StatusOptions
 from gradysim.cli.runs import check
 from gradysim.cli.study import check_directory
 
@@ -21,7 +21,7 @@ def print_status(
     earlier: Annotated[Path | None, Parameter(name="INI", show=False)] = None,
     /,
     *,
-    result_dir: ResultDirOption = DEFAULT_DIR,
+    result_dir: ResultDir = DEFAULT_DIR,
     options: StatusOptions = DEFAULTS,
 ) -> int:
     """List which runs of a configuration are done. The exit code is 0 only if all of them are."""

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from gradysim.protocol.interface import OPTIONAL_CALLBACKS, IProtocol, is_protocol_class
+from gradysim.protocol.interface import CALLBACKS, OPTIONAL_CALLBACKS, IProtocol, is_protocol_class
 from gradysim.scenario.errors import BadValue, nearest, nearest_file
 from gradysim.scenario.native_protocols import is_native_name
 from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
@@ -187,10 +187,7 @@ def _error_text(error: BaseException, folder: Path | None = None) -> str:
     return f"{text} ({innermost[0].filename}:{innermost[0].lineno})" if innermost else text
 
 
-_CALLBACKS = {
-    name: tuple(inspect.signature(vars(IProtocol)[name]).parameters)
-    for name in ("initialize", "handle_timer", "handle_packet", "handle_telemetry", "finish")
-}
+_CALLBACKS = {name: tuple(inspect.signature(vars(IProtocol)[name]).parameters) for name in CALLBACKS}
 """Arguments of the callbacks, with `self`. All are passed by position."""
 
 

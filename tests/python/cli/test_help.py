@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from gradysim.cli.app import EXAMPLES, app
+from gradysim.cli.app import COMMANDS, app
 from python.cli.command import environment
 
 
@@ -31,9 +31,9 @@ def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
     ]
 
 
-@pytest.mark.parametrize("group", EXAMPLES)
+@pytest.mark.parametrize("group", COMMANDS)
 def test_each_command_has_an_example_that_it_accepts(gradysim, group):
-    for command, (function, example) in EXAMPLES[group].items():
+    for command, (function, example) in COMMANDS[group].items():
         called, _, _ = app.parse_args(shlex.split(example)[1:], exit_on_error=False)
         assert called is function
         assert f"Example: {example}" in gradysim(command, "--help").stdout
