@@ -61,21 +61,9 @@ class Tested(Quiet):
     assert loss.short_db == pytest.approx(-85 - loss.power_dbm)
 
 
-def test_a_collision_has_its_sinr_and_the_powers_of_the_interferers(make_scenario, tmp_path):
-    python = """
-class Tested(Quiet):
-    def initialize(self):
-        if self.provider.get_id() != 1:
-            self.provider.schedule_timer("talk", 1)
-    def handle_timer(self, timer):
-        self.provider.send_communication_command(BroadcastMessageCommand("x" * 500))
-"""
-    hidden = (
-        "*.uavs.count = 3",
-        "*.uavs[*].mobility.lineStepX = 400m",
-        '*.uavs[*].wlan[*].opMode = "g(erp)"',
-    )
-    IntegratedRun(make_scenario(python, *hidden), replay=ReplayWriter(tmp_path / "run.html")).execute()
+def test_a_collision_has_its_sinr_and_the_powers_of_the_interferers(make_hidden_senders, tmp_path):
+    scenario = make_hidden_senders('*.uavs[*].wlan[*].opMode = "g(erp)"')
+    IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
     lost = [loss for loss in read_replay(tmp_path / "run.html").losses() if loss.interferers]
     assert lost
     for loss in lost:
@@ -100,26 +88,17 @@ def test_fading_and_shadowing_are_recorded(tmp_path):
         assert set(loss.gains) == {"shadowing", "fading"}
 
 
-@pytest.mark.parametrize("outcome", ["preamble_undetected", "header_error"])
-def test_preambles_and_headers_have_what_they_need(make_scenario, tmp_path, outcome):
-    python = """
-class Tested(Quiet):
-    def initialize(self):
-        if self.provider.get_id() != 1:
-            self.provider.schedule_timer("talk", 1)
-    def handle_timer(self, timer):
-        for _ in range(20):
-            self.provider.send_communication_command(BroadcastMessageCommand("x" * 500))
-"""
-    receiver = {
-        "preamble_undetected": ['preambleDetection.typename="ThresholdPreambleDetection"'],
-        "header_error": [],
-    }[outcome]
-    settings = [f"*.uavs[*].wlan[*].radio.receiver.{line}" for line in receiver]
-    hidden = ("*.uavs.count = 3", "*.uavs[*].mobility.lineStepX = 400m")
-    scenario = make_scenario(
-        python, *hidden, '*.uavs[*].wlan[*].radio.receiver.errorModel.snirMode = "chunks"', *settings
-    )
+@pytest.mark.parametrize(
+    ("outcome", "settings"),
+    [
+        ("preamble_undetected", ['preambleDetection.typename = "ThresholdPreambleDetection"']),
+        ("header_error", []),
+    ],
+)
+def test_preambles_and_headers_have_what_they_need(make_hidden_senders, tmp_path, outcome, settings):
+    lines = [f"*.uavs[*].wlan[*].radio.receiver.{line}" for line in settings]
+    chunks = '*.uavs[*].wlan[*].radio.receiver.errorModel.snirMode = "chunks"'
+    scenario = make_hidden_senders("*.uavs[*].protocol.messages = 20", chunks, *lines)
     IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
     replay = read_replay(tmp_path / "run.html")
     lost = {(frame, node) for frame, node, fate in replay.receptions() if fate == outcome}

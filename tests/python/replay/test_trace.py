@@ -119,21 +119,8 @@ class Tested(Quiet):
     assert " to uavs[1]: below_sensitivity, " in first
 
 
-def test_a_lost_frame_names_the_interferer(make_scenario, capsys):
-    python = """
-class Tested(Quiet):
-    def initialize(self):
-        if self.provider.get_id() != 1:
-            self.provider.schedule_timer("talk", 1)
-    def handle_timer(self, timer):
-        self.provider.send_communication_command(BroadcastMessageCommand("x" * 500))
-"""
-    hidden = (
-        "*.uavs.count = 3",
-        "*.uavs[*].mobility.lineStepX = 400m",
-        '*.uavs[*].wlan[*].opMode = "g(erp)"',
-    )
-    scenario = make_scenario(python, *hidden)
+def test_a_lost_frame_names_the_interferer(make_hidden_senders, capsys):
+    scenario = make_hidden_senders('*.uavs[*].wlan[*].opMode = "g(erp)"')
     IntegratedRun(scenario, replay=Trace([1])).execute()
     lines = [line.split(maxsplit=3)[3] for line in capsys.readouterr().out.splitlines()]
     assert {line.split(": ")[1].split(",")[0] for line in lines} <= set(OUTCOMES)
