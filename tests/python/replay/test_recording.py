@@ -192,3 +192,25 @@ def test_a_killed_run_keeps_what_was_written(make_scenario, tmp_path):
     assert replay.end is None
     assert len(replay.chunks) >= 2
     assert replay.end_s >= 120
+
+
+def test_a_replay_has_the_first_2000_bytes_of_a_message_and_500_kb_of_each_minute(
+    mode, make_scenario, tmp_path
+):
+    python = """
+class Tested(Quiet):
+    def initialize(self):
+        self.number = 0
+        if self.provider.get_id() == 0:
+            self.provider.schedule_timer("talk", 1)
+    def handle_timer(self, timer):
+        self.provider.send_communication_command(BroadcastMessageCommand(f"{self.number:3}" + "é" * 1050))
+        self.number += 1
+        if self.number < 300:
+            self.provider.schedule_timer("talk", self.provider.current_time() + 0.01)
+"""
+    _, replay = record(make_scenario(python, "sim-time-limit = 5s"), mode, tmp_path / "run.html")
+    texts = replay.table("frames")["text"]
+    assert texts[0] == "  0" + "é" * 998  # 1,999 bytes: a character is not cut
+    assert sum(len(text.encode()) for text in texts) == pytest.approx(500_000, abs=2000)
+    assert len(texts) == 300
