@@ -67,6 +67,14 @@ def test_its_times_of_others_are_those_of_the_benchmark(root: Path) -> None:
         assert float(row[2]) / float(row[1]) > 200  # the benchmark's goal
 
 
+def test_its_protocols_in_two_languages_do_the_same(root: Path, shell: Callable[..., str]) -> None:
+    (command,) = re.findall(r"`(gradysim run \S+ --json)`", README.read_text())
+    runs = [
+        json.loads(shell(f"{command} --quiet -c {config}", root)) for config in ("Beacons200", "Python200")
+    ]
+    assert runs[0]["fingerprint"] == runs[1]["fingerprint"]
+
+
 def test_its_comparison_is_in_the_table_of_verification(root: Path) -> None:
     (difference, total) = re.findall(r"differ by (\d+) of ([\d,]+) receptions", README.read_text())[0]
     table = (root / "docs/verification/README.md").read_text()
