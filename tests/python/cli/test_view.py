@@ -2,6 +2,7 @@ import shutil
 import socket
 import subprocess
 import sys
+import urllib.error
 import urllib.request
 import webbrowser
 from urllib.parse import parse_qs, urlsplit
@@ -101,6 +102,11 @@ def test_replays_beside_each_other_are_served_while_somebody_watches(replay, fol
             for path in ("/0", "/1"):
                 with urllib.request.urlopen(f"http://{address.netloc}{path}?{address.query}") as answer:
                     assert answer.read() == replay.read_bytes()
+            for path in ("/2", "/run.html", "/../run.html"):
+                with pytest.raises(urllib.error.HTTPError) as refused:
+                    urllib.request.urlopen(f"http://{address.netloc}{path}?{address.query}")
+                assert refused.value.code == 404
+                refused.value.close()
         assert view.wait(20) == 0
 
 
