@@ -1,23 +1,21 @@
 """Signals that stop a study at a random instant: results are kept, and no process is left."""
 
 import os
-import signal
 import time
 from pathlib import Path
 from random import Random
 
+from gradysim.cli.interrupt import STOPPING
 from gradysim.results.files import read_run_file
 from gradysim.scenario.runs import hash_of
 from python.torture.study import OUT, assert_resume_completes, begin, content_of, end_of, prepare, undisturbed
-
-_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def once(random: Random, folder: Path) -> int:
     """Send one of the signals, to the command or to all of its processes; return 1."""
     prepare(folder)
     expected, duration_s = undisturbed()
-    number = random.choice(_SIGNALS)
+    number = random.choice(STOPPING)
     process = begin(folder, "--jobs", str(random.randint(1, 3)))
     time.sleep(random.uniform(0, duration_s))
     if process.poll() is None:
