@@ -74,6 +74,17 @@ def test_a_collision_has_its_sinr_and_the_powers_of_the_interferers(make_hidden_
         assert loss.short_db == loss.needed - loss.sinr_db
 
 
+def test_only_what_a_busy_receiver_misses_has_no_numbers(make_hidden_senders, tmp_path):
+    scenario = make_hidden_senders("*.uavs[*].protocol.messages = 20")
+    IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
+    replay = read_replay(tmp_path / "run.html")
+    explained = {(loss.frame, loss.receiver) for loss in replay.losses()}
+    outcomes = {fate for frame, node, fate in replay.receptions() if (frame, node) not in explained}
+    busy = {"receiver_transmitting", "receiver_locked", "captured"}
+    assert {"receiver_locked"} <= outcomes <= busy | {"delivered", "in_air"}
+    assert explained
+
+
 def test_fading_and_shadowing_are_recorded(tmp_path):
     random = (
         "sim-time-limit=1s",
