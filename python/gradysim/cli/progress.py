@@ -52,17 +52,18 @@ def tell_until(ended: Ending, what: str, terminal: TextIO) -> None:
 
 
 class RunProgress:
-    """A bar on `console` that `update` moves: simulated time, speed, remaining time.
+    """A bar on `console` that `update` moves: simulated time, speed and remaining time, or a number of runs.
 
     It disappears at the end of the `with` block. It draws only in `update`, so it needs no thread.
     """
 
-    def __init__(self, console: "Console", title: str, limit_s: float) -> None:
-        """Prepare a bar for a run of `limit_s` simulated seconds, which may be infinite."""
+    def __init__(self, console: "Console", title: str, limit: float, unit: str = "s") -> None:
+        """Prepare a bar up to `limit` simulated seconds, which may be infinite, or another `unit`."""
         from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
         from rich.table import Column
 
-        self._limit = f" of {limit_s:,.0f}" if math.isfinite(limit_s) else ""
+        self._limit = f" of {limit:,.0f}" if math.isfinite(limit) else ""
+        self._unit = unit
         self._bar = Progress(
             TextColumn("{task.description}", markup=False, table_column=Column(no_wrap=True)),
             BarColumn(),
@@ -75,7 +76,7 @@ class RunProgress:
             transient=True,
             redirect_stdout=sys.stdout.isatty(),
         )
-        total = limit_s if math.isfinite(limit_s) else None
+        total = limit if math.isfinite(limit) else None
         self._task = self._bar.add_task(title, total=total, reached="", speed="")
 
     def __enter__(self) -> Self:
@@ -87,14 +88,14 @@ class RunProgress:
         with suppress(OSError):
             self._bar.stop()
 
-    def update(self, sim_time_s: float) -> None:
-        """Show that the run has reached `sim_time_s` seconds of simulated time."""
+    def update(self, reached: float) -> None:
+        """Show that this simulated time in s, or this number, has been reached."""
         with suppress(OSError):
             self._bar.update(
                 self._task,
-                completed=sim_time_s,
-                reached=f"{sim_time_s:,.0f}{self._limit} s",
-                speed=text_of_speed(self._bar.tasks[0].speed),
+                completed=reached,
+                reached=f"{reached:,.0f}{self._limit} {self._unit}",
+                speed=text_of_speed(self._bar.tasks[0].speed) if self._unit == "s" else "",
                 refresh=True,
             )
 

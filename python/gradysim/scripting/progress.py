@@ -2,10 +2,12 @@
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from html import escape
 from time import monotonic
 from typing import Any
+
+from gradysim.cli.progress import RunProgress
 
 _EVERY_S = 0.2
 """Wall time between two drawings."""
@@ -63,28 +65,14 @@ def _html_bar(title: str, unit: str) -> Callable[[float, float], None]:
 @contextmanager
 def _rich_bar(title: str, unit: str) -> Iterator[Callable[[float, float], None]]:
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-    columns = (
-        TextColumn("{task.description}", markup=False),
-        BarColumn(),
-        TextColumn("{task.fields[reached]}"),
-        TimeRemainingColumn(),
-        TextColumn("left"),
-    )
-    # Drawn by `update` alone: a thread would not survive the fork of a run.
-    bar = Progress(*columns, console=Console(stderr=True), auto_refresh=False, transient=True)
-    task = bar.add_task(title, total=None, reached="")
+    with ExitStack() as at_end:
+        bar: RunProgress | None = None
 
-    def update(done: float, total: float) -> None:
-        with suppress(OSError):  # a closed terminal is not a reason to stop
-            bar.update(
-                task,
-                completed=done,
-                total=total,
-                reached=f"{done:,.9g} of {total:,.9g} {unit}",
-                refresh=True,
-            )
+        def update(done: float, total: float) -> None:
+            nonlocal bar
+            if bar is None:
+                bar = at_end.enter_context(RunProgress(Console(stderr=True), title, total, unit))
+            bar.update(done)
 
-    with bar:
         yield update
