@@ -78,17 +78,33 @@ def checked_destination(destination: object) -> int:
     raise CommunicationException(f"destination must be an int, the id of a node, got {destination!r}")
 
 
+class _UnknownNameError(CommunicationException):
+    """No node has this name. Looking for the nearest one is slow, so it is left until the message is read."""
+
+    def __init__(self, name: str, ids_by_name: Mapping[str, int]) -> None:
+        super().__init__(name)
+        self._ids_by_name = ids_by_name
+
+    def __str__(self) -> str:
+        name: str = self.args[0]
+        expected = f"expected one such as {next(iter(self._ids_by_name))!r}"
+        if similar := get_close_matches(name, self._ids_by_name, n=1):
+            expected = f"did you mean {similar[0]!r}?"
+        return f"no node is called {name!r}; {expected}"
+
+    def __reduce__(self) -> tuple[type[CommunicationException], tuple[str]]:
+        return CommunicationException, (str(self),)
+
+
 def id_of_name(name: str, ids_by_name: Mapping[str, int]) -> int:
     """Return the id of a node. CommunicationException, with the nearest name, if no node is called so."""
+    if not isinstance(name, str):
+        raise CommunicationException(f"the name of a node must be a str, got {name!r}")
     if name in ids_by_name:
         return ids_by_name[name]
     if not ids_by_name:
         raise CommunicationException(f"no node is called {name!r}: the nodes have no names; expected an id")
-    similar = get_close_matches(name, ids_by_name, n=1)
-    expected = f"expected one such as {next(iter(ids_by_name))!r}"
-    if similar:
-        expected = f"did you mean {similar[0]!r}?"
-    raise CommunicationException(f"no node is called {name!r}; {expected}")
+    raise _UnknownNameError(name, ids_by_name)
 
 
 def addressed_by_id(command: Any, ids_by_name: Mapping[str, int]) -> Any:

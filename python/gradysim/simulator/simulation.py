@@ -72,8 +72,10 @@ class SimulationBuilder:
         """Add a node at (x, y, z) in meters with a protocol of this class. Return its id: 0, then 1, ...
 
         Protocols can send to it by its `name`, such as `SendMessageCommand(text, "base")`. Raises ValueError
-        if another node has the name.
+        if another node has the name, and TypeError if it is not a str.
         """
+        if not isinstance(name, str):
+            raise TypeError(f"the name of a node must be a str, got {name!r}")
         if name in self._ids_by_name:
             raise ValueError(f"there is a node with the name {name!r} already")
         place = checked_point("the position of a node", position, ValueError)

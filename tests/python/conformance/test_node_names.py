@@ -1,11 +1,15 @@
 """Nodes have names, which protocols use instead of ids, in both modes."""
 
+import pickle
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import gradysim as gs
+from gradysim.encapsulator import validation
+from gradysim.encapsulator.validation import id_of_name
 from gradysim.protocol.errors import CommunicationException
 from gradysim.protocol.messages.communication import SendMessageCommand
 from gradysim.results.result import RunResult
@@ -87,6 +91,23 @@ def test_an_unknown_name_is_an_error_with_the_nearest_one(run: Run, mode: str, a
     settings = ('*.uavs[0].protocol.to = "bse"', f"*.uavs[0].protocol.asks = {asks}")
     with pytest.raises(CommunicationException, match=r"no node is called 'bse'; did you mean 'base'\?"):
         run(mode, *settings)
+
+
+@pytest.mark.parametrize("name", [3, None, [], b"base"])
+def test_a_name_is_a_str(name: Any) -> None:
+    with pytest.raises(CommunicationException, match="must be a str"):
+        id_of_name(name, {"base": 0})
+    with pytest.raises(TypeError, match="must be a str"):
+        SimulationBuilder(SimulationConfiguration()).add_node(Quiet, (0, 0, 0), name)
+
+
+def test_the_nearest_name_is_looked_for_only_if_the_message_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(validation, "get_close_matches", lambda *arguments, n: ["nearest"])
+    with pytest.raises(CommunicationException) as raised:
+        id_of_name("bse", {"base": 0})
+    monkeypatch.undo()
+    assert "did you mean 'base'?" in str(raised.value)
+    assert str(pickle.loads(pickle.dumps(raised.value))) == str(raised.value)
 
 
 def test_a_script_names_its_nodes() -> None:
