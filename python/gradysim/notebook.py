@@ -6,6 +6,12 @@ from html import escape
 MOST_ROWS = 60
 """Rows of a table. Further rows are counted only."""
 
+MOST_COLUMNS = 60
+"""Columns of a table. Further columns are counted only."""
+
+_LONGEST_CELL = 200
+"""Letters of a cell that are shown."""
+
 _CAPTION = "text-align: left; white-space: nowrap"
 """Otherwise the caption is as narrow as the table."""
 
@@ -36,7 +42,7 @@ def html_table(
 ) -> str:
     """Return a table with a row for each of `rows`, at most `MOST_ROWS`, and the number of others.
 
-    Columns with a heading of `in_caption` become a part of the caption if all rows have the same value.
+    It has at most `MOST_COLUMNS`, because protocols may track any number of variables. Columns with a heading of `in_caption` become a part of the caption if all rows have the same value.
     """
     rows = list(rows)
     same = [
@@ -44,7 +50,8 @@ def html_table(
         for column, heading in enumerate(headings)
         if heading in in_caption and len({row[column] for row in rows}) == 1
     ]
-    shown = [column for column in range(len(headings)) if column not in same]
+    different = [column for column in range(len(headings)) if column not in same]
+    shown = different[:MOST_COLUMNS]
     caption = ", ".join([caption, *(f"{headings[column]} {rows[0][column]}" for column in same)])
     lines = [f"<table><caption style='{_CAPTION}'>{escape(caption)}</caption>"]
     if rows:
@@ -53,8 +60,14 @@ def html_table(
     lines.append("</table>")
     if len(rows) > MOST_ROWS:
         lines.append(f"<p>and {len(rows) - MOST_ROWS:,} more rows</p>")
+    if len(different) > MOST_COLUMNS:
+        lines.append(f"<p>and {len(different) - MOST_COLUMNS:,} more columns</p>")
     return "\n".join(lines)
 
 
 def _row(tag: str, cells: Iterable[object]) -> str:
-    return f"<tr>{''.join(f'<{tag}>{escape(str(cell))}</{tag}>' for cell in cells)}</tr>"
+    return f"<tr>{''.join(f'<{tag}>{escape(_shortened(str(cell)))}</{tag}>' for cell in cells)}</tr>"
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _LONGEST_CELL else f"{text[:_LONGEST_CELL]}…"

@@ -1,4 +1,4 @@
-from gradysim.notebook import MOST_ROWS, html_table
+from gradysim.notebook import MOST_COLUMNS, MOST_ROWS, html_table
 
 CAPTION = "<caption style='text-align: left; white-space: nowrap'>"
 
@@ -24,6 +24,16 @@ def test_a_long_table_counts_the_rows_that_it_leaves_out() -> None:
     table = html_table("runs", ("n",), [(number,) for number in range(MOST_ROWS + 1000)])
     assert table.count("<td>") == MOST_ROWS
     assert "and 1,000 more rows" in table
+
+
+def test_a_wide_table_counts_the_columns_that_it_leaves_out() -> None:
+    table = html_table("run", ["n"] * (MOST_COLUMNS + 1000), [range(MOST_COLUMNS + 1000)])
+    assert table.count("<td>") == table.count("<th>") == MOST_COLUMNS
+    assert "and 1,000 more columns" in table
+
+
+def test_a_long_cell_is_cut_off() -> None:
+    assert len(html_table("run", ("text",), [("x" * 100_000,)])) < 1000
 
 
 def test_no_rows_are_an_empty_table() -> None:

@@ -229,10 +229,13 @@ def _submitter(
     """Return a function that submits the run at a position; at its end, `on_progress` is called."""
     ended = itertools.count(1)
 
+    def report(future: "Future[Reported]") -> None:
+        if on_progress is not None and not future.cancelled():
+            on_progress(next(ended), count)
+
     def submit(place: int) -> "Future[Reported]":
         future = forks.submit(task, place)
-        if on_progress is not None:
-            future.add_done_callback(lambda _: on_progress(next(ended), count))
+        future.add_done_callback(report)
         return future
 
     if on_progress is not None:

@@ -9,6 +9,9 @@ from pathlib import Path
 import pytest
 
 import gradysim as gs
+from gradysim.cli.errors import FAILED
+from gradysim.cli.options import RunOptions
+from gradysim.cli.run import run_study
 from gradysim.results import Runs
 from gradysim.results.result import RunResult
 from gradysim.scenario.errors import ConfigError
@@ -140,6 +143,14 @@ def test_a_failed_run_is_an_error_that_names_the_missing_runs(
     assert 1 in failed.value.missing
     assert "RuntimeError: this run fails" in capsys.readouterr().err
     assert pickle.loads(pickle.dumps(failed.value)).missing == failed.value.missing
+
+
+def test_runs_that_never_begin_are_no_progress(file: Path, tmp_path: Path) -> None:
+    study = gs.load(file, "Study", overrides=["*.uavs[*].protocol.fails_in_run = 0"])
+    options = RunOptions(config="Study", result_dir=tmp_path / "results", quiet=True)
+    progress: list[tuple[int, int]] = []
+    assert run_study(study, file, options, lambda *ended: progress.append(ended)) == FAILED
+    assert progress == [(0, 4), (1, 4)]
 
 
 def test_a_single_run_raises_what_its_protocol_raises(file: Path) -> None:
