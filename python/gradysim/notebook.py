@@ -42,7 +42,8 @@ def html_table(
 ) -> str:
     """Return a table with a row for each of `rows`, at most `MOST_ROWS`, and the number of others.
 
-    It has at most `MOST_COLUMNS`, because protocols may track any number of variables. Columns with a heading of `in_caption` become a part of the caption if all rows have the same value.
+    It has at most `MOST_COLUMNS`, because protocols may track any number of variables. Columns with a
+    heading of `in_caption` become a part of the caption if all rows have the same value.
     """
     rows = list(rows)
     same = [

@@ -144,6 +144,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except SystemExit as end:
         if isinstance(end.__context__, BrokenPipeError):
             return OK  # rich converts it
+        from cyclopts.completion.detect import ShellDetectionError
+
+        if isinstance(end.__context__, ShellDetectionError):
+            return MISTAKE  # cyclopts has printed the message
         raise
     except OSError as error:
         if not is_about_output(error):

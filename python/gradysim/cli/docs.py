@@ -1,5 +1,6 @@
 """`gradysim docs`: the pages of the documentation, in the terminal."""
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -89,5 +90,6 @@ def _print_page(file: Path) -> None:
     from gradysim.cli.console import console
 
     terminal = console()
+    os.environ.setdefault("LESS", "-R")  # otherwise it shows the codes of colors
     with terminal.pager(styles=True):
         terminal.print(Markdown(text))

@@ -1,7 +1,10 @@
 """`gradysim new`: makes a directory with which to begin."""
 
 import shlex
+import shutil
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from importlib import resources
 from pathlib import Path
 from typing import Annotated
@@ -40,12 +43,12 @@ def make_project(name: NameArgument = None, /, *, example: ExampleOption = False
         return MISTAKE
     folder = Path(name)
     try:
-        folder.mkdir(parents=True)
-        for template, file in _FILES.items():
-            text = resources.files("gradysim.cli").joinpath("templates", template).read_text(encoding="utf-8")
-            (folder / file.replace("NAME", folder.name)).write_text(
-                text.replace("NAME", folder.name), encoding="utf-8"
-            )
+        with _making(folder):
+            for template, file in _FILES.items():
+                source = resources.files("gradysim.cli").joinpath("templates", template)
+                (folder / file.replace("NAME", folder.name)).write_text(
+                    source.read_text(encoding="utf-8").replace("NAME", folder.name), encoding="utf-8"
+                )
     except OSError as error:
         return say_mistake(error)
     scenarios = shlex.quote(str(folder / f"{folder.name}.ini"))
@@ -54,6 +57,20 @@ def make_project(name: NameArgument = None, /, *, example: ExampleOption = False
     print(f"gradysim run {scenarios} -c Study --jobs 2 --result-dir {shlex.quote(str(folder / 'results'))}")
     print(f"python -m pytest {shlex.quote(str(folder))}")
     return OK
+
+
+@contextmanager
+def _making(directory: Path) -> Iterator[None]:
+    """Make a directory, and remove it if its files cannot be written, so that the command can be repeated."""
+    from gradysim.results.durable import naming
+
+    directory.mkdir(parents=True)
+    try:
+        with naming(directory):
+            yield
+    except BaseException:
+        shutil.rmtree(directory, ignore_errors=True)
+        raise
 
 
 def _list_examples() -> int:
@@ -73,8 +90,8 @@ def _copy_example(name: str) -> int:
         return MISTAKE
     directory = Path(name)
     try:
-        directory.mkdir()
-        examples.copy_files(name, directory)
+        with _making(directory):
+            examples.copy_files(name, directory)
     except OSError as error:
         return say_mistake(error)
     print(f"cd {name}", *examples.commands(name), sep="\n")

@@ -1,6 +1,7 @@
 """The ranges of prototype mode: those of the radios, unless the file gives it one of its own."""
 
 import math
+from statistics import mean
 
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
 from gradysim.scenario.keys import has_radios
@@ -37,4 +38,4 @@ def are_alike(one_m: float, other_m: float) -> bool:
 def mean_range_m(ranges_m: "list[float] | list[float | None]") -> float | None:
     """Return the mean of the ranges that are known and finite; None if there are none."""
     finite = [range_m for range_m in ranges_m if range_m is not None and math.isfinite(range_m)]
-    return math.fsum(finite) / len(finite) if finite else None
+    return mean(finite) if finite else None  # exact: a sum could be infinite

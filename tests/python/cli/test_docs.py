@@ -1,11 +1,15 @@
 """`gradysim docs`."""
 
+import os
 import re
+import subprocess
+import sys
 
 import pytest
 
 from gradysim.cli.docs import FOLDERS, pages, title_of, with_commands, with_links
 from gradysim.cli.examples import files_root
+from python.cli.command import environment
 
 
 def test_all_pages_are_listed(gradysim):
@@ -37,6 +41,16 @@ def test_what_only_the_site_understands_is_left_out(gradysim):
         printed = gradysim("docs", name).stdout
         assert printed.startswith(f"# {title_of(file)}\n")
         assert not re.search(r"^```\{|^\{emphasize|^!\[", printed, re.MULTILINE), name
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no pseudo terminals")
+def test_less_shows_colors(gradysim):
+    reader, terminal = os.openpty()
+    settings = {name: value for name, value in environment().items() if name != "LESS"}
+    settings |= {"TERM": "xterm", "PAGER": """sh -c 'cat > /dev/null; echo "LESS=$LESS"'"""}
+    command = [sys.executable, "-m", "gradysim", "docs", "fly-a-mission"]
+    subprocess.run(command, stdin=terminal, stdout=terminal, env=settings, check=True)
+    assert b"LESS=-R" in os.read(reader, 1000)
 
 
 def test_keys_name_pages_that_exist(gradysim):

@@ -1,5 +1,7 @@
 """Examples of `gradysim new --example`, in a user's directory."""
 
+import errno
+import os
 import shlex
 import subprocess
 import sys
@@ -8,7 +10,7 @@ import pytest
 
 from gradysim.cli.app import main
 from gradysim.cli.examples import NAMES
-from python.cli.command import both_modes, compiled, environment
+from python.cli.command import both_modes, compiled, disk_of, environment
 
 
 @pytest.fixture(params=NAMES)
@@ -73,6 +75,15 @@ def test_an_existing_directory_is_left_alone(tmp_path, monkeypatch, capsys):
     assert main(["new", "--example", "zigzag"]) == 2
     assert "zigzag" in capsys.readouterr().err
     assert list((tmp_path / "zigzag").iterdir()) == []
+
+
+@pytest.mark.parametrize("arguments", [["zigzag", "--example"], ["zigzag"]])
+def test_files_that_cannot_be_written_leave_no_directory(tmp_path, monkeypatch, capsys, arguments):
+    monkeypatch.chdir(tmp_path)
+    with disk_of(100):
+        assert main(["new", *arguments]) == 2
+    assert capsys.readouterr().err == f"zigzag: {os.strerror(errno.EFBIG)}\n"
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_a_name_is_required_without_an_example(capsys):

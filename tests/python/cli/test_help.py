@@ -69,3 +69,17 @@ def test_version(gradysim):
     done = gradysim("--version")
     assert done.returncode == 0
     assert done.stdout.strip()
+
+
+def test_an_unknown_shell_has_no_completion(tmp_path):
+    # Without SHELL, the name of the parent process decides, which may be bash here.
+    code = (
+        "import sys, cyclopts.completion.detect as detect\n"
+        "detect.detect_shell = lambda: (_ for _ in ()).throw(detect.ShellDetectionError())\n"
+        "from gradysim.cli.app import main\n"
+        "sys.exit(main(['--install-completion']))"
+    )
+    settings = {**environment(), "HOME": str(tmp_path)}
+    done = subprocess.run([sys.executable, "-c", code], env=settings, capture_output=True, text=True)
+    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
+    assert list(tmp_path.iterdir()) == []

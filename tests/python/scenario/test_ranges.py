@@ -1,4 +1,5 @@
 import math
+import sys
 from typing import Any
 
 import pytest
@@ -29,3 +30,7 @@ def test_the_range_in_prototype_mode(folder: Any, lines: str, range_m: float) ->
 def test_the_mean_leaves_out_what_is_unknown_and_unlimited() -> None:
     assert mean_range_m([10.0, 30.0, None, math.inf]) == 20
     assert mean_range_m([math.inf]) is None
+
+
+def test_the_mean_of_the_largest_ranges_is_finite() -> None:
+    assert mean_range_m([sys.float_info.max] * 3) == sys.float_info.max
