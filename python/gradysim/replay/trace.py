@@ -97,7 +97,9 @@ class Trace:
         due = [line for line in self._lines if line.time_ns <= until_ns]
         del self._lines[: len(due)]
         texts = [
-            text_line(line.time_ns / 1e9, self._names[line.node], line.event, line.details, self._width)
+            text_line(
+                line.time_ns / 1e9, self._names[line.node], line.event, _printable(line.details), self._width
+            )
             for line in due
         ]
         try:
@@ -184,6 +186,13 @@ class Trace:
             if node in self._nodes and self._values.get((node, variable)) != value:
                 self._values[node, variable] = value
                 yield _Line(time_ns, _VARIABLE, row, node, "set", f"{variable} = {value}")
+
+
+def _printable(details: str) -> str:
+    """Return a text with escapes for line ends, control characters, and what UTF-8 cannot encode."""
+    if details.isprintable():
+        return details
+    return "".join(letter if letter.isprintable() else repr(letter)[1:-1] for letter in details)
 
 
 def _quoted(message: str) -> str:

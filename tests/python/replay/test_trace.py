@@ -157,6 +157,20 @@ class Tested(Quiet):
     assert replay.table("frames")["text"][:2] == ["two\nlines", "x" * 300]
 
 
+@pytest.mark.parametrize("text", ["a\nb", "\x1b[2J", "\ud800"])
+def test_names_and_values_cannot_break_a_line_or_control_the_terminal(make_scenario, capsys, text):
+    python = f"""
+class Tested(Talker):
+    def initialize(self):
+        self.provider.tracked_variables[{text!r}] = {text!r}
+"""
+    PrototypeRun(make_scenario(python), replay=Trace([0])).execute()
+    printed = capsys.readouterr().out
+    escaped = ascii(text)[1:-1]
+    assert f"  set      {escaped} = {escaped}\n" in printed
+    assert text not in printed
+
+
 def test_receptions_after_the_end_are_left_out(traced, mode):
     delay = "*.communicationMedium.delay = 1.5s"
     lines, _ = traced([0, 1], TRACED, *([delay] if mode == "prototype" else []))
