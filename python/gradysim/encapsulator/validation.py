@@ -78,22 +78,24 @@ def checked_destination(destination: object) -> int:
     raise CommunicationException(f"destination must be an int, the id of a node, got {destination!r}")
 
 
-class _UnknownNameError(CommunicationException):
-    """No node has this name. Looking for the nearest one is slow, so it is left until the message is read."""
+class _UnknownName:
+    """Message for a name that no node has. It looks for the nearest one only when it is read: this is slow."""
 
     def __init__(self, name: str, ids_by_name: Mapping[str, int]) -> None:
-        super().__init__(name)
+        self._name = name
         self._ids_by_name = ids_by_name
 
     def __str__(self) -> str:
-        name: str = self.args[0]
         expected = f"expected one such as {next(iter(self._ids_by_name))!r}"
-        if similar := get_close_matches(name, self._ids_by_name, n=1):
+        if similar := get_close_matches(self._name, self._ids_by_name, n=1):
             expected = f"did you mean {similar[0]!r}?"
-        return f"no node is called {name!r}; {expected}"
+        return f"no node is called {self._name!r}; {expected}"
 
-    def __reduce__(self) -> tuple[type[CommunicationException], tuple[str]]:
-        return CommunicationException, (str(self),)
+    def __repr__(self) -> str:
+        return repr(str(self))
+
+    def __reduce__(self) -> tuple[type[str], tuple[str]]:
+        return str, (str(self),)
 
 
 def id_of_name(name: str, ids_by_name: Mapping[str, int]) -> int:
@@ -104,7 +106,7 @@ def id_of_name(name: str, ids_by_name: Mapping[str, int]) -> int:
         return ids_by_name[name]
     if not ids_by_name:
         raise CommunicationException(f"no node is called {name!r}: the nodes have no names; expected an id")
-    raise _UnknownNameError(name, ids_by_name)
+    raise CommunicationException(_UnknownName(name, ids_by_name))
 
 
 def addressed_by_id(command: Any, ids_by_name: Mapping[str, int]) -> Any:
