@@ -79,7 +79,7 @@ def checked_destination(destination: object) -> int:
 
 
 class _UnknownName:
-    """Message for a name that no node has. It looks for the nearest one only when it is read: this is slow."""
+    """Message for a name that no node has. Only reading it looks for the nearest one, which is slow."""
 
     def __init__(self, name: str, ids_by_name: Mapping[str, int]) -> None:
         self._name = name
