@@ -42,6 +42,19 @@ def _forwarding(attribute: str, method: str) -> Callable[..., Any]:
     return call
 
 
+def _sending_by_id(
+    send: Callable[[CommunicationCommand], None], ids_by_name: Mapping[str, int]
+) -> Callable[[CommunicationCommand], None]:
+    """Return a function that sends to ids, also if a command has the name. It is called for each message."""
+
+    def send_communication_command(command: CommunicationCommand) -> None:
+        if isinstance(getattr(command, "destination", None), str):
+            command = addressed_by_id(command, ids_by_name)
+        send(command)
+
+    return send_communication_command
+
+
 class NetsimProvider(CheckedProvider):
     """Provider whose calls go to the engine. They raise the exceptions of `gradysim.protocol.errors`.
 
@@ -79,7 +92,8 @@ class NetsimProvider(CheckedProvider):
         for name in _SAME_IN_THE_ENGINE:
             setattr(self, name, getattr(node, name))
         self._ids_by_name = {} if ids_by_name is None else ids_by_name
-        self._send = node.send_communication_command
+        self._send = _sending_by_id(node.send_communication_command, self._ids_by_name)
+        setattr(self, "send_communication_command", self._send)  # noqa: B010 (hides a method, as above)
         if steer is not None:
             setattr(self, "send_mobility_command", steer)  # noqa: B010 (hides a method, as above)
 
@@ -92,9 +106,8 @@ class NetsimProvider(CheckedProvider):
         """The protocol's own random numbers: the same for the same seed and node, in both modes."""
         return self._random
 
-    # The abstract methods of IProvider. Messages and, without an autopilot, mobility commands get here. Other
-    # calls go to the attributes of the instance, which __init__ sets. These methods are for calls through
-    # super().
+    # The abstract methods of IProvider. Only mobility commands without an autopilot get here; other calls go
+    # to the attributes of the instance, which __init__ sets. These methods are for calls through super().
 
     schedule_timer = _forwarding("_node", "schedule_timer")
     cancel_timer = _forwarding("_node", "cancel_timer")
@@ -103,8 +116,6 @@ class NetsimProvider(CheckedProvider):
 
     def send_communication_command(self, command: CommunicationCommand) -> None:
         """Send a message to the id of its destination, also if the command has the name."""
-        if isinstance(getattr(command, "destination", None), str):
-            command = addressed_by_id(command, self._ids_by_name)
         self._send(command)
 
     def send_mobility_command(self, command: MobilityCommand) -> None:
