@@ -30,7 +30,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden pages docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -153,6 +153,9 @@ schema: build  ## Rewrite what is derived from the declarations of the engine's 
 
 fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
 	$(BIN)/python tests/fingerprints/update.py
+
+pages: build $(STAMPS)/test system-tshark  ## Rewrite the output that pages show; some: ONLY='tests/python/house/test_run_a_study.py'.
+	REWRITE_PAGES=1 $(BIN)/python -m pytest -m 'not autopilot' --numprocesses=$(WORKERS) --dist=loadfile $(or $(ONLY),tests/python/house)
 
 golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages about mistakes in scenarios.
 	REWRITE_GOLDEN=1 $(BIN)/python -m pytest -q tests/python/scenario/test_messages.py

@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from python.shown_output import REWRITE, check_block
+
 _ROOT = Path(__file__).parents[3]
 
 
@@ -149,11 +151,23 @@ def climbers(
 
 
 @pytest.fixture
-def prints(shell: Callable[[str, Path], str]) -> Callable[[str, Path, str], bool]:
-    """`prints(commands, folder, text)`: whether what the commands print there has these lines in a row."""
+def shows(root: Path) -> Callable[..., None]:
+    """`shows(page, printed, 1)`: the second `text` block of the page is what was printed.
 
-    def contains(commands: str, folder: Path, text: str) -> bool:
-        printed = "\n".join(line.rstrip() for line in shell(commands, folder).splitlines())
-        return f"\n{text.rstrip()}\n" in f"\n{printed}\n"
+    A line `…` stands for lines that are left out. With `part=True` the block is some lines in a row, with
+    `changing=True` processor times and fingerprints may differ, and with `terminal=True` long lines are
+    broken. `make pages` rewrites blocks that differ.
+    """
 
-    return contains
+    def check(page: str, printed: str, number: int = 0, **how: bool) -> None:
+        check_block(root / page, printed, number, **how)
+
+    return check
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """With `make pages`, run only the tests of shown output."""
+    if REWRITE:
+        others = [item for item in items if "shows" not in getattr(item, "fixturenames", ())]
+        config.hook.pytest_deselected(items=others)
+        items[:] = [item for item in items if item not in others]

@@ -16,9 +16,12 @@ PAGE = "docs/how-to/behave-as-ns3-or-inet.md"
 
 
 def test_its_command_prints_what_it_shows(
-    root: Path, code_blocks: Callable[[str, str], list[str]], prints: Callable[[str, Path, str], bool]
+    root: Path,
+    code_blocks: Callable[[str, str], list[str]],
+    shell: Callable[[str, Path], str],
+    shows: Callable[..., None],
 ) -> None:
-    assert prints(code_blocks(PAGE, "sh")[0], root, code_blocks(PAGE, "text")[0])
+    shows(PAGE, shell(code_blocks(PAGE, "sh")[0], root), part=True)
 
 
 @pytest.mark.parametrize("config", ["AsNs3", "AsInet"])

@@ -19,10 +19,13 @@ def guide(root: Path) -> str:
 
 
 def test_its_command_prints_what_it_shows(
-    root: Path, code_blocks: Callable[[str, str], list[str]], prints: Callable[[str, Path, str], bool]
+    root: Path,
+    code_blocks: Callable[[str, str], list[str]],
+    shell: Callable[[str, Path], str],
+    shows: Callable[..., None],
 ) -> None:
     page = "docs/how-to/choose-a-receiver.md"
-    assert prints(code_blocks(page, "sh")[0], root, code_blocks(page, "text")[0])
+    shows(page, shell(code_blocks(page, "sh")[0], root), part=True)
 
 
 def test_its_lines_and_its_table_run(root: Path, guide: str, tmp_path: Path) -> None:

@@ -18,20 +18,23 @@ CodeBlocks = Callable[[str, str], list[str]]
 @pytest.mark.verify
 @pytest.mark.parametrize("number", [0, 1])
 def test_its_commands_print_what_it_shows(
-    number: int, code_blocks: CodeBlocks, shell: Callable[[str, Path], str], clone: Path
+    number: int,
+    code_blocks: CodeBlocks,
+    shell: Callable[[str, Path], str],
+    shows: Callable[..., None],
+    clone: Path,
 ) -> None:
     (clone / "harsh.ini").write_text(code_blocks(GUIDE, "ini")[0])
-    printed = shell(code_blocks(GUIDE, "sh")[number], clone).splitlines()
-    assert [line.rstrip() for line in printed] == code_blocks(GUIDE, "text")[number].splitlines()
+    shows(GUIDE, shell(code_blocks(GUIDE, "sh")[number], clone), number)
     assert number or (clone / "results/ladder.png").stat().st_size
 
 
 @pytest.mark.verify
 def test_its_script_prints_what_it_shows(
-    code_blocks: CodeBlocks, clone: Path, monkeypatch: pytest.MonkeyPatch
+    code_blocks: CodeBlocks, shows: Callable[..., None], clone: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(clone)
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec("\n".join(code_blocks(GUIDE, "python")), {})
-    assert printed.getvalue() == code_blocks(GUIDE, "text")[2]
+    shows(GUIDE, printed.getvalue(), 2)

@@ -17,13 +17,15 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.mark.verify
 def test_its_commands_print_what_it_shows(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], root: Path, clone: Path
+    code_blocks: CodeBlocks,
+    shell: Callable[[str, Path], str],
+    shows: Callable[..., None],
+    root: Path,
+    clone: Path,
 ) -> None:
     studies, others, modes = code_blocks(GUIDE, "sh")
-    shown = code_blocks(GUIDE, "text")
-    for commands, expected in ((studies, shown[0]), (modes, shown[1])):
-        printed = shell(commands, clone).splitlines()
-        assert [line.rstrip() for line in printed] == expected.splitlines()
+    for number, commands in enumerate((studies, modes)):
+        shows(GUIDE, shell(commands, clone), number)
     assert (clone / "results/compare.png").stat().st_size
     assert "results/compare.png" in (root / "Makefile").read_text()
     shell(others, clone)
@@ -31,8 +33,8 @@ def test_its_commands_print_what_it_shows(
     assert "base reports" in lines[1]
 
 
-def test_its_script_prints_what_it_shows(code_blocks: CodeBlocks) -> None:
+def test_its_script_prints_what_it_shows(code_blocks: CodeBlocks, shows: Callable[..., None]) -> None:
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         exec("\n".join(code_blocks(GUIDE, "python")), {})
-    assert printed.getvalue() == code_blocks(GUIDE, "text")[2]
+    shows(GUIDE, printed.getvalue(), 2)

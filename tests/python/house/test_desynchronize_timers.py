@@ -16,10 +16,10 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.mark.verify
 def test_its_command_prints_what_it_shows(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], clone: Path
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], shows: Callable[..., None], clone: Path
 ) -> None:
     (command,) = code_blocks(GUIDE, "sh")
-    assert shell(command, clone).split() == code_blocks(GUIDE, "text")[0].split()
+    shows(GUIDE, shell(command, clone), terminal=True)
     assert (clone / "results/jitter.png").stat().st_size
 
 

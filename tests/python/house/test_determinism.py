@@ -16,8 +16,7 @@ def test_the_output_is_the_one_that_is_shown(
     root: Path,
     code_blocks: Callable[[str, str], list[str]],
     shell: Callable[[str, Path], str],
+    shows: Callable[..., None],
     number: int,
 ) -> None:
-    commands, shown = code_blocks(PAGE, "sh"), code_blocks(PAGE, "text")
-    assert len(commands) == len(shown) == 2
-    assert shell(commands[number], root) == shown[number]
+    shows(PAGE, shell(code_blocks(PAGE, "sh")[number], root), number)

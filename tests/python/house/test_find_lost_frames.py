@@ -14,12 +14,10 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 
 def test_its_tables_are_the_end_of_the_summary(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], shows: Callable[..., None], tmp_path: Path
 ) -> None:
-    (commands,), (tables,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
-    printed = [line.rstrip() for line in shell(commands, tmp_path).splitlines() if line.strip()]
-    shown = [line for line in tables.splitlines() if line]
-    assert printed[-len(shown) :] == shown
+    (commands,) = code_blocks(GUIDE, "sh")
+    shows(GUIDE, shell(commands, tmp_path), part=True)
 
 
 def test_its_rows_of_interference_are_those_of_the_summary(

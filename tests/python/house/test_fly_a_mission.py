@@ -14,12 +14,12 @@ Saved = Callable[..., Path]
 
 
 def test_its_commands_print_the_table_in_both_modes(
-    code_blocks: CodeBlocks, saved: Saved, prints: Callable[[str, Path, str], bool]
+    code_blocks: CodeBlocks, saved: Saved, shell: Callable[[str, Path], str], shows: Callable[..., None]
 ) -> None:
-    (commands,), (table,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
+    (commands,) = code_blocks(GUIDE, "sh")
     folder = saved(GUIDE, python="patrol.py", ini="patrol.ini")
     for command in commands.splitlines():
-        assert prints(command, folder, table)
+        shows(GUIDE, shell(command, folder), part=True)
 
 
 def test_its_types_hold(saved: Saved, type_errors: Callable[[Path], str]) -> None:

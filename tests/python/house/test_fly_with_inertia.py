@@ -24,20 +24,17 @@ def page(saved: Callable[..., Path]) -> Path:
 
 @pytest.mark.verify
 def test_its_commands_print_and_draw_what_it_shows(
-    page: Path, code_blocks: CodeBlocks, shell: Callable[[str, Path], str]
+    page: Path, code_blocks: CodeBlocks, shell: Callable[[str, Path], str], shows: Callable[..., None]
 ) -> None:
-    printed = shell("".join(code_blocks(GUIDE, "sh")), page)
-    lines = "\n".join(line.rstrip() for line in printed.splitlines())
-    assert code_blocks(GUIDE, "text")[0] in f"{lines}\n"
+    shows(GUIDE, shell("".join(code_blocks(GUIDE, "sh")), page), part=True)
     assert (page / "results" / "inertia.png").stat().st_size
 
 
 def test_prototype_mode_prints_the_same(
-    page: Path, code_blocks: CodeBlocks, capsys: pytest.CaptureFixture[str]
+    page: Path, shows: Callable[..., None], capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["run", "square.ini", "--mode", "prototype"]) == 0
-    lines = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
-    assert code_blocks(GUIDE, "text")[0] in f"{lines}\n"
+    shows(GUIDE, capsys.readouterr().out, part=True)
 
 
 def test_its_second_configuration_gives_each_node_an_error(page: Path) -> None:

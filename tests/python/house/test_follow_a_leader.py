@@ -18,10 +18,10 @@ Saved = Callable[..., Path]
 
 
 def test_its_command_prints_the_table(
-    code_blocks: CodeBlocks, saved: Saved, prints: Callable[[str, Path, str], bool]
+    code_blocks: CodeBlocks, saved: Saved, shell: Callable[[str, Path], str], shows: Callable[..., None]
 ) -> None:
-    (command,), (table,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
-    assert prints(command, saved(GUIDE, python="convoy.py", ini="convoy.ini"), table)
+    (command,) = code_blocks(GUIDE, "sh")
+    shows(GUIDE, shell(command, saved(GUIDE, python="convoy.py", ini="convoy.ini")), part=True)
 
 
 @pytest.mark.parametrize("mode", ["prototype", "integrated"])

@@ -18,10 +18,10 @@ def test_the_nodes_end_where_the_page_says(
     code_blocks: Callable[[str, str], list[str]],
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
+    shows: Callable[..., None],
     mode: str,
 ) -> None:
     (command,) = code_blocks(GUIDE, "sh")
     monkeypatch.chdir(saved(GUIDE, python="scout.py", ini="patrol.ini"))
     assert main([*command.split()[1:], "--mode", mode]) == 0
-    printed = "\n".join(line.rstrip() for line in capsys.readouterr().out.splitlines())
-    assert code_blocks(GUIDE, "text")[0] in f"{printed}\n"
+    shows(GUIDE, capsys.readouterr().out, part=True)

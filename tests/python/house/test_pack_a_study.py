@@ -17,14 +17,12 @@ CodeBlocks = Callable[[str, str], list[str]]
 
 @pytest.mark.verify
 def test_its_commands_print_what_is_shown(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
+    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], shows: Callable[..., None], tmp_path: Path
 ) -> None:
     study, more, several, back, verify = code_blocks(GUIDE, "sh")
-    shown = [block.splitlines() for block in code_blocks(GUIDE, "text")]
     new, *commands = study.splitlines()
     shell(new, tmp_path)
-    printed = shell("\n".join(commands), tmp_path)
-    assert [line.rstrip() for line in printed.splitlines()] == shown[0]
+    shows(GUIDE, shell("\n".join(commands), tmp_path), 0)
 
     names: dict[str, Any] = {}
     exec("\n".join(code_blocks(GUIDE, "python")), names)
@@ -32,17 +30,17 @@ def test_its_commands_print_what_is_shown(
     means = read_means(tmp_path / "results", "station heard")
     assert sum(heard) == pytest.approx(sum(mean.runs * (mean.mean or 0) for mean in means))
 
-    assert shell(more, tmp_path).splitlines() == shown[1]
+    shows(GUIDE, shell(more, tmp_path), 1)
     packed, *tables, joined = shell(several, tmp_path).splitlines()
     assert packed == "packed 40 new runs into share1.sca"
     assert tables[: len(tables) // 2] == tables[len(tables) // 2 :]
     assert joined == "packed 40 new runs into all/packs/runs.sca, and removed packed JSON files"
-    assert shell(back, tmp_path).splitlines() == shown[2]
+    shows(GUIDE, shell(back, tmp_path), 2)
     assert len(list((tmp_path / "results").glob("Study-*.json"))) == 40
-    assert shell(verify, tmp_path).splitlines() == shown[3]
+    shows(GUIDE, shell(verify, tmp_path), 3)
 
     run = "gradysim run swarm/swarm.ini -c Study -r 3 --result-dir results --quiet --pcap station"
     shell(run, tmp_path)
     capture = tmp_path / "results" / "Study-#3-station.pcap"
     capture.write_bytes(capture.read_bytes()[:-1])
-    assert shell(f"{verify.strip()} || true", tmp_path).splitlines() == shown[4]
+    shows(GUIDE, shell(f"{verify.strip()} || true", tmp_path), 4)

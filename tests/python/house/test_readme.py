@@ -36,11 +36,9 @@ def test_its_commands_print_what_is_said(folder: Path, shell: Callable[..., str]
 
 
 def test_it_shows_a_part_of_the_summary(
-    code_blocks: Callable[[str, str], list[str]], folder: Path, shell: Callable[..., str]
+    folder: Path, shell: Callable[..., str], shows: Callable[..., None]
 ) -> None:
-    (shown,) = code_blocks("README.md", "text")
-    printed = [line.rstrip() for line in shell("gradysim run hello.ini", folder).splitlines()]
-    assert shown in "\n".join(printed)
+    shows("README.md", shell("gradysim run hello.ini", folder), part=True)
 
 
 @pytest.mark.verify

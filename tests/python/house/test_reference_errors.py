@@ -80,10 +80,10 @@ def test_the_exceptions_can_be_imported_from_there(page: str) -> None:
 
 
 def test_the_script_prints_what_is_shown(
-    page: str, code_blocks: Callable[[str, str], list[str]], tmp_path: Path
+    code_blocks: Callable[[str, str], list[str]], shows: Callable[..., None], tmp_path: Path
 ) -> None:
     (script,) = code_blocks(PAGE, "python")
     done = subprocess.run(
         [sys.executable, "-c", script], cwd=tmp_path, check=True, capture_output=True, text=True
     )
-    assert f"```text\n{done.stdout}```" in page
+    shows(PAGE, done.stdout, -1)

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario import load_scenarios
+from gradysim.scenario import ConfigError, load_scenarios
+from gradysim.scenario.load import OF_SCRIPT, Study
 
 PAGE = "docs/reference/studies.md"
 
@@ -70,3 +71,14 @@ def test_its_other_order_of_runs(root: Path, file: Path) -> None:
     scenarios = load_scenarios(file, overrides=[*values, line])
     runs = [(scenario.repetition, scenario.iterations["0"]) for scenario in scenarios]
     assert runs == [(0, "1ms"), (0, "2ms"), (1, "1ms"), (1, "2ms")]
+
+
+def test_a_mistake_in_the_number_of_a_run_shows_when_it_starts(root: Path, file: Path) -> None:
+    row = "| when a run starts | other combinations of values, `${runnumber}` in a value"
+    assert row in (root / PAGE).read_text()
+    line = "*.nodes[*].mobility.initialX = 10m / (${runnumber} - 350)"
+    study = Study(file, "General", None, ["repeat = 400", line], None, OF_SCRIPT)
+    assert len(study.checked_in_full()) < 350
+    with pytest.raises(ConfigError) as caught:
+        study[350]
+    assert caught.value.key == "*.nodes[*].mobility.initialX"

@@ -29,10 +29,13 @@ def file(swarm: Path) -> str:
 
 
 def test_its_commands_print_the_rows_that_are_shown(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], saved: Callable[..., Path]
+    code_blocks: CodeBlocks,
+    shell: Callable[[str, Path], str],
+    saved: Callable[..., Path],
+    shows: Callable[..., None],
 ) -> None:
-    (commands,), (rows,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
-    assert shell(commands, saved(GUIDE, python="compare.py")).endswith(rows)
+    (commands,) = code_blocks(GUIDE, "sh")
+    shows(GUIDE, shell(commands, saved(GUIDE, python="compare.py")), part=True)
 
 
 def test_a_study_gives_the_means_of_its_runs(

@@ -17,6 +17,7 @@ def test_the_station_hears_reports_at_these_times(
     tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
+    shows: Callable[..., None],
 ) -> None:
     monkeypatch.chdir(tmp_path)
     assert main(["new", "swarm"]) == 0
@@ -24,4 +25,4 @@ def test_the_station_hears_reports_at_these_times(
     exec("\n".join(code_blocks(PAGE, "python")), names)
     capsys.readouterr()
     print(names["until_heard"]("swarm/swarm.ini", 60))
-    assert capsys.readouterr().out == code_blocks(PAGE, "text")[0]
+    shows(PAGE, capsys.readouterr().out)

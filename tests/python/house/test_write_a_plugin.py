@@ -15,10 +15,15 @@ Saved = Callable[..., Path]
 
 @pytest.mark.parametrize("mode", ["prototype", "integrated"])
 def test_pings_are_answered_and_not_seen(
-    code_blocks: CodeBlocks, saved: Saved, prints: Callable[[str, Path, str], bool], mode: str
+    code_blocks: CodeBlocks,
+    saved: Saved,
+    shell: Callable[[str, Path], str],
+    shows: Callable[..., None],
+    mode: str,
 ) -> None:
-    (command,), (table,) = code_blocks(GUIDE, "sh"), code_blocks(GUIDE, "text")
-    assert prints(f"{command.strip()} --mode {mode}", saved(GUIDE, python="ping.py", ini="ping.ini"), table)
+    (command,) = code_blocks(GUIDE, "sh")
+    folder = saved(GUIDE, python="ping.py", ini="ping.ini")
+    shows(GUIDE, shell(f"{command.strip()} --mode {mode}", folder), part=True)
 
 
 def test_its_types_hold(saved: Saved, type_errors: Callable[[Path], str]) -> None:
