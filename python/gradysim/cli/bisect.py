@@ -32,7 +32,10 @@ def find_breaking_level(
         ),
     ],
     confidence: Annotated[
-        float, Parameter(help="Probability that a level that is named is the right one.")
+        float,
+        Parameter(
+            help="1 less the error rate: how rarely a level is named that does not differ from the one below."
+        ),
     ] = 0.95,
     max_runs: Annotated[Integer, Parameter(help="Budget of runs; all of it is used if none fails.")] = 400,
     options: CampaignOptions = DEFAULTS,

@@ -36,7 +36,7 @@ def check_file(
     mode: Annotated[Mode, Parameter(help="The mode to check for, as of `gradysim run`.")] = "integrated",
     settings: SetOption = (),
 ) -> int:
-    """Report all errors and warnings of a file, sorted by line."""
+    """Report the errors and warnings that show before the first run, sorted by line."""
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigErrors, ErrorCollector
     from gradysim.scenario.ini import read_ini

@@ -135,7 +135,7 @@ class Bisection:
     Attributes:
         campaign: The configuration.
         assertion: What the protocol has to achieve.
-        confidence: Probability that a level that is named is the right one.
+        confidence: 1 less the error rate: see `__init__`.
     """
 
     def __init__(
@@ -153,7 +153,8 @@ class Bisection:
             campaign: The configuration. It needs as many runs as the budget.
             assertion: What the protocol has to achieve.
             executor: Executes the runs, see `Campaign.observations`.
-            confidence: Probability that a level that is named is the right one, > 0.5 and < 1.
+            confidence: > 0.5 and < 1. A level that fails as often as the one below it is named with a
+                probability of at most 1 - confidence, all levels and looks at the runs together.
             max_runs: Budget of runs, one for each level at least.
 
         Raises:

@@ -30,7 +30,7 @@ def assert_survives(
         config: Name of the configuration in it.
         assertion: What the protocol has to achieve, such as `groundStation collected >= 100`.
         settings: "KEY=VALUE" strings that precede the file.
-        confidence: Probability that the level named is the right one, > 0.5 and < 1.
+        confidence: 1 less the error rate of the level that the message names, see `Bisection`; > 0.5 and < 1.
         max_runs: Budget of runs; at least one for each level.
         executor: Executes the runs, see `Campaign.observations`; None for this process.
 
