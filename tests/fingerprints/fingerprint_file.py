@@ -1,4 +1,4 @@
-"""Fingerprints of the example configurations: their runs, and the file of fingerprints."""
+"""Fingerprints and result hashes of the example configurations: their runs, and the file of hashes."""
 
 import csv
 from collections.abc import Iterable, Iterator
@@ -16,6 +16,13 @@ SEEDS = (0, 1)
 SIM_TIME_LIMIT = "600s"
 
 
+class Hashes(NamedTuple):
+    """What tells one run from another: of all events on the air and in the protocols, and of all results."""
+
+    fingerprint: str | None
+    result_hash: str
+
+
 class Example(NamedTuple):
     """One run: a configuration, its seed and its duration (a quantity of an .ini file)."""
 
@@ -24,13 +31,12 @@ class Example(NamedTuple):
     seed: int
     sim_time_limit: str
 
-    def fingerprint(self) -> str:
+    def hashes(self) -> Hashes:
         """Run it in integrated mode."""
         overrides = [f"seed-set = {self.seed}", f"sim-time-limit = {self.sim_time_limit}"]
         (scenario,) = load_scenarios(ROOT / self.file, self.config, runs=[0], overrides=overrides)
-        fingerprint = run(scenario).fingerprint
-        assert fingerprint is not None
-        return fingerprint
+        result = run(scenario)
+        return Hashes(result.fingerprint, result.result_hash)
 
 
 def examples() -> Iterator[Example]:
@@ -41,18 +47,20 @@ def examples() -> Iterator[Example]:
                 yield Example(file.relative_to(ROOT).as_posix(), config, seed, SIM_TIME_LIMIT)
 
 
-def read() -> dict[Example, str]:
-    """Return the stored fingerprints."""
+def read() -> dict[Example, Hashes]:
+    """Return the stored hashes."""
     with KEPT.open(encoding="utf-8", newline="") as lines:
         return {
-            Example(row["file"], row["config"], int(row["seed"]), row["sim_time_limit"]): row["fingerprint"]
+            Example(row["file"], row["config"], int(row["seed"]), row["sim_time_limit"]): Hashes(
+                row["fingerprint"], row["result_hash"]
+            )
             for row in csv.DictReader(lines)
         }
 
 
-def write(fingerprints: Iterable[tuple[Example, str]]) -> None:
-    """Store these fingerprints instead of the present ones."""
+def write(found: Iterable[tuple[Example, Hashes]]) -> None:
+    """Store these hashes instead of the present ones."""
     with KEPT.open("w", encoding="utf-8", newline="") as lines:
         writer = csv.writer(lines, lineterminator="\n")
-        writer.writerow([*Example._fields, "fingerprint"])
-        writer.writerows([*example, fingerprint] for example, fingerprint in fingerprints)
+        writer.writerow([*Example._fields, *Hashes._fields])
+        writer.writerows([*example, *hashes] for example, hashes in found)

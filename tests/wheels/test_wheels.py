@@ -99,10 +99,10 @@ def test_it_needs_no_newer_system_than_its_tag_says(wheel: Path) -> None:
 
 
 @each_compiled
-def test_its_runs_have_the_fingerprints_of_the_sources(
+def test_all_examples_give_what_they_give_with_the_sources(
     wheel: Path, tmp_path: Path, request: pytest.FixtureRequest
 ) -> None:
-    compare = Path(__file__).with_name("compare_fingerprints.py")
+    compare = Path(__file__).with_name("compare_hashes.py")
     version, architecture = version_of(wheel), architecture_of(wheel)
     if architecture == HOST:
         print(run(fresh_environment(pythons()[version], wheel, tmp_path) / "python", compare))

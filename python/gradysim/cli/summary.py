@@ -227,8 +227,8 @@ def heading(result: RunResult) -> Text:
     """Return which run this was, and whether it ended early."""
     text = Text(f"{result.config} run {result.run}", style="bold")
     values = f"{text_of_iterations(result.iterations)}, " if result.iterations else ""
-    mark = f", fingerprint {result.fingerprint}" if result.fingerprint else ""
-    text.append(f"  {values}seed {result.seed}, {result.mode} mode{mark}", style="not bold")
+    about = f"  {values}seed {result.seed}, {result.mode} mode, result hash {result.result_hash}"
+    text.append(about, style="not bold")
     if result.interrupted:
         text.append(f"\ninterrupted at {result.sim_time_s:,.9g} s of simulated time", style="bold red")
     return text

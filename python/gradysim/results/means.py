@@ -1,7 +1,5 @@
 """Means over the runs of a study with confidence intervals, from the files of `--result-dir`."""
 
-import hashlib
-import json
 import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -15,6 +13,7 @@ from gradysim.results.confidence_interval import are_binary, estimate
 from gradysim.results.files import read_run_file
 from gradysim.results.quantity import Names, name_filter
 from gradysim.results.result_dir import read_results
+from gradysim.results.result_hash import result_hash
 from gradysim.results.run_summary import Conditions, RunSummary
 from gradysim.results.tracked_variables import REASONS
 
@@ -137,24 +136,18 @@ def of_different_settings(results: Iterable[RunSummary]) -> tuple[str, str] | No
 def repeated(results: Iterable[RunSummary]) -> list[tuple[str, str]]:
     """Return (original, repeated) names of runs that repeat another one.
 
-    They have the same values of variables, seed, settings and results.
+    They have the same values of variables, seed, settings and result hash.
     """
     first: dict[object, RunSummary] = {}
     found = []
     for alike in _by(results, lambda result: (result.conditions.values, result.seed)):
         for result in alike if len(alike) > 1 else ():
-            same = (result.conditions.values, result.seed, result.settings_hash, _computed(result))
+            computed = result_hash(read_run_file(result.file))
+            same = (result.conditions.values, result.seed, result.settings_hash, computed)
             other = first.setdefault(same, result)
             if other is not result:
                 found.append((other.name, result.name))
     return found
-
-
-def _computed(run: RunSummary) -> str:
-    """Return a key of all computed values of a run, from its file."""
-    result = read_run_file(run.file)
-    content = json.dumps([result.get(field) for field in ("fingerprint", "fates", "nodes")], sort_keys=True)
-    return hashlib.sha256(content.encode()).hexdigest()
 
 
 def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | None:

@@ -1,13 +1,15 @@
 """Declarations of the numbers of a run: each field of a result once, for all outputs.
 
-A field of `RunResult` or `NodeResult` is annotated with a `Quantity`. The JSON object, the scalars of `.sca`
-files, the summary, `gradysim means` and the reference table of docs/reference/results.md follow from it.
+A field of `RunResult` or `NodeResult` is annotated with a `Quantity`, as is the value of a cached property.
+The JSON object, the scalars of `.sca` files, the summary, `gradysim means` and the reference table of
+docs/reference/results.md follow from it.
 """
 
 import dataclasses
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from gradysim.protocol.plain_value import plain_value
@@ -97,21 +99,25 @@ class Quantity:
 
 
 def quantities(result: type[Any]) -> Mapping[str, Quantity]:
-    """Return {field: its declaration} of a result class, in the order of the fields."""
+    """Return {name: its declaration} of the fields of a result class, then of what follows from them."""
     if result not in _known:
-        fields: Iterable[dataclasses.Field[Any]] = dataclasses.fields(result)
-        _known[result] = {each.name: get_args(each.type)[1] for each in fields}
+        types = {each.name: each.type for each in dataclasses.fields(result)}
+        for name, member in vars(result).items():
+            if isinstance(member, cached_property):
+                types[name] = member.func.__annotations__["return"]
+        _known[result] = {name: get_args(each)[1] for name, each in types.items()}
     return _known[result]
 
 
 _known: dict[type, Mapping[str, Quantity]] = {}
 
 
-def json_object(result: Any) -> dict[str, object]:
-    """Return the fields of a result as plain dicts, lists, strings and numbers."""
+def json_object(result: Any, names: Iterable[str] = ()) -> dict[str, object]:
+    """Return the fields of a result, or only those of `names`, as plain dicts, lists and numbers."""
     plain = {}
-    for name, quantity in quantities(type(result)).items():
-        value = getattr(result, name)
+    declared = quantities(type(result))
+    for name in names or declared:
+        value, quantity = getattr(result, name), declared[name]
         if quantity.in_json and value not in quantity.omitted:
             plain[name] = quantity.to_json(value)
     return plain

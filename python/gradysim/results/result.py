@@ -9,6 +9,7 @@ import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Annotated, Any, Literal
 
 from gradysim.notebook import HEIGHT_PX, ReplayView, html_table
@@ -24,6 +25,7 @@ from gradysim.results.outcomes import (
 )
 from gradysim.results.quantity import Histogram, Quantity, Scalar, json_object, recorded, scalars_of
 from gradysim.results.recorder import Vector
+from gradysim.results.result_hash import OF_RUN, result_hash
 from gradysim.results.tracked_variables import tracked_scalars
 from gradysim.scenario.functions import is_quoted, unquoted
 
@@ -196,7 +198,7 @@ class RunResult:
     fingerprint: Annotated[
         str | None,
         Quantity(
-            "Hash of all frames, messages and timers, but not of positions; `null` in prototype mode.",
+            "Hash of all frames, messages and timers in their order; `null` in prototype mode.",
         ),
     ]
     fates: Annotated[
@@ -280,6 +282,20 @@ class RunResult:
             "With `replay` in `gradysim.run`: the page of the replay, HTML. In scripts only.", in_json=False
         ),
     ] = field(default=None, repr=False, compare=False)
+
+    @cached_property
+    def result_hash(
+        self,
+    ) -> Annotated[
+        str,
+        Quantity(
+            "Hash of all that the run computed: `sim_time_s`, `fingerprint`, `fates`, `message_delays`, and"
+            " the position, the tracked variables and `frames_by_bitrate` of each node. Two runs with one"
+            " hash did the same."
+        ),
+    ]:
+        """Return the hash of all that the run computed."""
+        return result_hash(json_object(self, OF_RUN))
 
     def view(self, height_px: int = HEIGHT_PX) -> ReplayView:
         """Return the replay of a run of `gradysim.run(..., replay="all")`, which a notebook shows.

@@ -4,11 +4,11 @@ import contextlib
 import io
 import subprocess
 import sys
-from dataclasses import fields
 
 import pytest
 
 from gradysim.cli.app import main
+from gradysim.results.quantity import quantities
 from gradysim.results.result import RunResult
 from python.cli.command import PROTOCOL, both_modes, compiled, environment, objects
 
@@ -56,7 +56,7 @@ def test_chosen_runs(gradysim):
 @both_modes
 def test_the_json_is_the_whole_result(gradysim, mode):
     (run,) = objects(gradysim("run", "test.ini", "--mode", mode, "--json", "-r", "0").stdout)
-    assert list(run) == [field.name for field in fields(RunResult) if field.name != "replay_page"]
+    assert list(run) == [name for name, quantity in quantities(RunResult).items() if quantity.in_json]
     assert set(run["nodes"][0]) == {"id", "name", "protocol", "position", "tracked_variables"}
     assert run["mode"] == mode
     assert run["nodes"][0]["tracked_variables"] == {"said": 10}
@@ -146,11 +146,10 @@ def test_the_largest_seed_runs(gradysim, mode):
     assert [run["seed"] for run in objects(done.stdout)] == [2**63 - 1]
 
 
-@compiled
-def test_the_same_seed_gives_the_same_fingerprint_in_another_process(gradysim):
-    first, again = (
-        objects(gradysim("run", "test.ini", "--json", "-r", "0").stdout)[0]["fingerprint"] for _ in range(2)
-    )
+@both_modes
+def test_the_same_seed_gives_the_same_result_hash_in_another_process(gradysim, mode):
+    command = ("run", "test.ini", "--mode", mode, "--json", "-r", "0")
+    first, again = (objects(gradysim(*command).stdout)[0]["result_hash"] for _ in range(2))
     assert first == again
 
 

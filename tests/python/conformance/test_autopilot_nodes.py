@@ -87,7 +87,7 @@ def test_a_run_is_repeatable(flown_scenario, mode):
     scenario = flown_scenario(FLYER)
     one, other = mode.run(scenario), mode.run(scenario)
     assert track_of(one) == track_of(other)
-    assert one.fingerprint == other.fingerprint
+    assert one.result_hash == other.result_hash
 
 
 def test_a_node_beside_it_has_no_mass_as_ever(flown_scenario, make_scenario, mode):

@@ -77,4 +77,4 @@ def test_the_same_in_another_process_whatever_the_order_of_its_sets(config: str,
         text=True,
     ).stdout
     result = json.loads(output)
-    assert (result["fingerprint"], result["events"]) == (alone(config).fingerprint, alone(config).events)
+    assert (result["result_hash"], result["events"]) == (alone(config).result_hash, alone(config).events)

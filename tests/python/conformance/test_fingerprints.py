@@ -1,4 +1,4 @@
-"""The example configurations have the fingerprints in tests/fingerprints/fingerprints.csv."""
+"""The example configurations have the hashes in tests/fingerprints/fingerprints.csv."""
 
 import sys
 from pathlib import Path
@@ -21,6 +21,6 @@ def test_each_example_is_in_the_file_and_no_other() -> None:
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=name)
-def test_the_fingerprint_is_what_it_was(example: Example) -> None:
+def test_what_it_computes_is_what_it_was(example: Example) -> None:
     rule = "tests/fingerprints/update.py says when it is legitimate to run `make fingerprints`"
-    assert example.fingerprint() == read()[example], rule
+    assert example.hashes() == read()[example], rule

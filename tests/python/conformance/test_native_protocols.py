@@ -1,7 +1,7 @@
-"""Native protocols behave exactly like their counterparts in Python: runs have equal fingerprints.
+"""Native protocols behave exactly like their counterparts in Python: runs have equal result hashes.
 
-The fingerprint covers the frames on the air, their outcomes, and the packets and timers of all protocols with
-their content.
+The hash covers the frames on the air, their outcomes, the packets and timers of all protocols with their
+content, and what the protocols tracked.
 """
 
 from functools import cache
@@ -70,7 +70,7 @@ def result(file: str, config: str, *overrides: str, seed: int = 1) -> RunResult:
 def what_happened(result: RunResult) -> tuple[object, ...]:
     """Return the result without names of protocols and run times."""
     return (
-        result.fingerprint,
+        result.result_hash,
         result.events,
         result.fates,
         [(node.position, node.tracked_variables) for node in result.nodes],

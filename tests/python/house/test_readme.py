@@ -70,7 +70,7 @@ def test_its_protocols_in_two_languages_do_the_same(root: Path, shell: Callable[
     runs = [
         json.loads(shell(f"{command} --quiet -c {config}", root)) for config in ("Beacons200", "Python200")
     ]
-    assert runs[0]["fingerprint"] == runs[1]["fingerprint"]
+    assert runs[0]["result_hash"] == runs[1]["result_hash"]
 
 
 def test_its_comparison_is_in_the_table_of_verification(root: Path) -> None:

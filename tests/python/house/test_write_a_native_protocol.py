@@ -30,7 +30,7 @@ def test_its_settings_run(code_blocks: Callable[[str, str], list[str]], tmp_path
     ]
 
 
-def test_its_commands_print_one_fingerprint(
+def test_its_commands_print_one_result_hash(
     root: Path,
     code_blocks: Callable[[str, str], list[str]],
     shell: Callable[[str, Path], str],

@@ -87,7 +87,7 @@ def test_a_folder_that_cannot_be_made_is_found_before_the_run(make_scenario, tmp
 
 def test_a_capture_does_not_change_the_run(make_scenario, tmp_path):
     with_capture = run(make_scenario(), captures={0: tmp_path / "new" / "a.pcap"})
-    assert with_capture.fingerprint == run(make_scenario()).fingerprint
+    assert with_capture.result_hash == run(make_scenario()).result_hash
 
 
 def test_the_file_is_complete_after_a_failure(make_scenario, tmp_path):

@@ -100,7 +100,7 @@ def test_sums_of_messages_over_all_interfaces_are_those_of_the_network(make_scen
 
 def test_to_be_asked_does_not_change_the_run(make_scenario):
     asked = run(make_scenario(), fates_at=[0])
-    assert asked.fingerprint == run(make_scenario()).fingerprint
+    assert asked.result_hash == run(make_scenario()).result_hash
 
 
 def test_a_run_that_was_stopped_tells_what_has_been(make_scenario):

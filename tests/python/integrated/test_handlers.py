@@ -43,7 +43,7 @@ def test_the_last_step_is_at_the_time_of_its_event(make_scenario):
 @pytest.mark.parametrize("handler", [Watching, Stepping])
 def test_who_watches_changes_nothing(make_scenario, handler):
     alone, watched = run(make_scenario()), run(make_scenario(), handlers=[handler()])
-    assert (watched.fingerprint, watched.events) == (alone.fingerprint, alone.events)
+    assert (watched.result_hash, watched.events) == (alone.result_hash, alone.events)
     assert [node.tracked_variables for node in watched.nodes] == [
         node.tracked_variables for node in alone.nodes
     ]

@@ -70,7 +70,7 @@ def test_what_is_late_is_caught_up_on(make_scenario, wall_clock):
 
 def test_the_pace_changes_nothing(make_scenario, wall_clock):
     full, paced = run(make_scenario()), run(make_scenario(), real_time=3)
-    assert (paced.fingerprint, paced.events) == (full.fingerprint, full.events)
+    assert (paced.result_hash, paced.events) == (full.result_hash, full.events)
 
 
 def test_full_speed_does_not_wait(make_scenario, wall_clock):

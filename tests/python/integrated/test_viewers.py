@@ -103,4 +103,4 @@ def test_a_shown_run_that_fails_leaves_no_thread(make_scenario):
 
 def test_a_shown_run_is_the_same(make_scenario):
     shown, alone = run(make_scenario(), handlers=[visualization()]), run(make_scenario())
-    assert shown.fingerprint == alone.fingerprint
+    assert shown.result_hash == alone.result_hash

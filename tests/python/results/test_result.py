@@ -50,6 +50,7 @@ def test_keys_and_values_that_scripts_rely_on():
         ("file_hashes", {}),
         ("range_m", None),
         ("setup_s", 0.0),
+        ("result_hash", result_with({}).result_hash),
     ]
 
 

@@ -32,7 +32,7 @@ _VIEW = ("view", f"{OUT}/General-#0.integrated.html", "--no-browser")
 
 _CAPTURE = "-nodes[0].pcap"
 
-_AT_ONCE = 8
+_AT_ONCE = 2
 """Calls of one row of `make torture`, until the others have their turn."""
 
 _NO_CALL = 2**40

@@ -57,7 +57,7 @@ def once(random: Random, folder: Path) -> int:
     file.write_text(ini(random))
     (scenario,) = load_scenarios(file)
     result = run(scenario)
-    assert result.fingerprint == run(scenario).fingerprint
+    assert result.result_hash == run(scenario).result_hash
     receivers = len(scenario.nodes) - 1
     received = {kind: sum(outcomes.values()) for kind, outcomes in result.fates["frames"].items()}
     messages = result.fates["messages"]["broadcast"]

@@ -1,0 +1,26 @@
+"""The hash of all that a run computed, which tells whether two runs did the same."""
+
+import hashlib
+import json
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from gradysim.scenario.runs import HASH_DIGITS
+
+OF_RUN = ("sim_time_s", "fingerprint", "fates", "message_delays", "nodes")
+OF_NODE = ("name", "position", "tracked_variables", "frames_by_bitrate")
+"""Fields that every run has. Others depend on options of a command, on the file, or on the machine."""
+
+_ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
+"""Part of the `repr` of an object, `<swarm.Mate object at 0x7f0c>`, that differs between processes."""
+
+
+def result_hash(result: Mapping[str, Any]) -> str:
+    """Return the hash of the computed fields of a run, from its JSON object or these fields of it."""
+    computed = {name: result[name] for name in OF_RUN if name in result}
+    computed["nodes"] = [
+        {name: node[name] for name in OF_NODE if name in node} for node in result.get("nodes", ())
+    ]
+    content = _ADDRESS.sub("", json.dumps(computed, sort_keys=True))
+    return hashlib.sha256(content.encode()).hexdigest()[:HASH_DIGITS]
