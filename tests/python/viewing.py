@@ -9,7 +9,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import SplitResult, urlsplit
 
 from websockets.sync.client import connect
 
@@ -28,13 +28,33 @@ def silent_viewer(address: str, message: str = "") -> Iterator[None]:
         yield
 
 
+@contextlib.contextmanager
+def _serving(command: str, folder: Path, **options: Any) -> Iterator[subprocess.Popen[str]]:
+    """`gradysim view`, which is killed if a test fails, since it would wait for a viewer for ever."""
+    arguments = [*shlex.split(command)[1:], "--no-browser"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "gradysim", *arguments],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        text=True,
+        **options,
+    ) as process:
+        try:
+            yield process
+        except BaseException:
+            process.kill()
+            raise
+
+
+def _address(process: subprocess.Popen[str]) -> SplitResult:
+    assert process.stdout is not None
+    return urlsplit(process.stdout.readline().strip())
+
+
 def visited(command: str, folder: Path) -> int:
     """Open the page of `gradysim view` of several replays, leave it, and return the exit code."""
-    arguments = [*shlex.split(command)[1:], "--no-browser"]
-    program = [sys.executable, "-m", "gradysim", *arguments]
-    with subprocess.Popen(program, cwd=folder, stdout=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None
-        address = urlsplit(process.stdout.readline().strip())
+    with _serving(command, folder) as process:
+        address = _address(process)
         with connect(f"ws://{address.netloc}/viewer?{address.query}"):
             pass
         return process.wait(20)
@@ -42,18 +62,9 @@ def visited(command: str, folder: Path) -> int:
 
 def watched(command: str, folder: Path, **options: Any) -> tuple[dict[str, Any], int, str]:
     """Return the final message of the run of `gradysim view FILE.ini ...`, exit code and error output."""
-    arguments = [*shlex.split(command)[1:], "--no-browser"]
-    with subprocess.Popen(
-        [sys.executable, "-m", "gradysim", *arguments],
-        cwd=folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        **options,
-    ) as process:
-        assert process.stdout is not None
+    with _serving(command, folder, stderr=subprocess.PIPE, **options) as process:
         assert process.stderr is not None
-        address = urlsplit(process.stdout.readline().strip())
+        address = _address(process)
         with connect(f"ws://{address.netloc}/chunks?{address.query}", max_size=None) as viewer:
             ends = (json.loads(message).get("end") for message in viewer if isinstance(message, str))
             end = next(filter(None, ends))
