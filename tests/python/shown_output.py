@@ -13,7 +13,7 @@ REWRITE = bool(os.environ.get("REWRITE_PAGES"))
 GAP = "…"
 """A line of a block that stands for any lines of the output."""
 
-CHANGING = re.compile(r"[\d.]+ s(?: \([\d,]+ x real time\))?|fingerprint \w+|in [\d.]+s")
+CHANGING = re.compile(r"[\d.]+ s(?: \([\d,]+ x real time\))?|result hash \w+|in [\d.]+s")
 """Processor times, and hashes that change with the engine."""
 
 _COLUMNS = 120
@@ -32,7 +32,7 @@ def check_block(
     """Compare the `text` block of the page with this number with the printed lines.
 
     Blanks at the ends of lines do not count. A block with `part` shows lines in a row. With `changing`,
-    processor times and fingerprints may differ. With `terminal`, long lines go on in the next one.
+    processor times and hashes may differ. With `terminal`, long lines go on in the next one.
     """
     text = page.read_text(encoding="utf-8")
     block = list(re.finditer(r"^```text\n(.*?)^```", text, re.MULTILINE | re.DOTALL))[number]

@@ -155,7 +155,7 @@ def shows(root: Path) -> Callable[..., None]:
     """`shows(page, printed, 1)`: the second `text` block of the page is what was printed.
 
     A line `…` stands for lines that are left out. With `part=True` the block is some lines in a row, with
-    `changing=True` processor times and fingerprints may differ, and with `terminal=True` long lines are
+    `changing=True` processor times and hashes may differ, and with `terminal=True` long lines are
     broken. `make pages` rewrites blocks that differ.
     """
 
