@@ -76,12 +76,26 @@ async function draw() {
   Object.assign(said, await page.evaluate(countColors, [picture.toString("base64"), asked.color ?? [0, 0, 0], asked.within ?? 40]));
 }
 
-/** Press a key, or `{click: selector}`, `{choose: name of a node}`, `{until: text}`. */
+/**
+ * Press a key, or `{click: selector}`, `{choose: name of a node}`, `{until: text}`, `{wheel: selector, by}`,
+ * `{drag: selector, by}` in pixels to the right, from the middle of an element.
+ */
 async function act(key) {
   if (key.click) await page.locator(key.click).click();
   else if (key.choose) await page.getByRole("combobox", { name: "Node" }).selectOption(key.choose);
   else if (key.until) await shows(key.until);
+  else if (key.wheel || key.drag) await turnOrDrag(key);
   else await page.keyboard.press(key);
+}
+
+async function turnOrDrag({ wheel, drag, by }) {
+  const { x, y, width, height } = await page.locator(wheel ?? drag).boundingBox();
+  const [left, top] = [x + width / 2, y + height / 2];
+  await page.mouse.move(left, top);
+  if (wheel) return page.mouse.wheel(0, by);
+  await page.mouse.down();
+  await page.mouse.move(left + by, top, { steps: 3 });
+  await page.mouse.up();
 }
 
 /** Wait until the page or its address has a text. */

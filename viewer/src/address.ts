@@ -15,18 +15,22 @@ export interface Place {
 export function readAddress(replay: Replay): Place {
   const values = new URLSearchParams(location.hash.slice(1));
   const time = Number.parseFloat(values.get("t") ?? "");
-  const name = values.get("node");
-  const node = replay.run.nodes.find((one) => one.name === name || String(one.id) === name);
   const frame = Number.parseInt(values.get("frame") ?? "", 10);
   return {
     timeNs: Number.isNaN(time) ? null : time * 1e9,
     frame: Number.isNaN(frame) ? null : frame,
     state: {
-      node: node?.id ?? null,
+      node: nodeCalled(replay, values.get("node")),
       isFollowing: values.get("follow") === "1",
+      sequence: values.get("sequence") === "1",
+      pinned: (values.get("pins") ?? "").split(",").flatMap((pin) => nodeCalled(replay, pin) ?? []),
       filter: values.get("filter") ?? "",
     },
   };
+}
+
+function nodeCalled({ run }: Replay, name: string | null): number | null {
+  return run.nodes.find((node) => node.name === name || String(node.id) === name)?.id ?? null;
 }
 
 export class Address {
@@ -41,6 +45,8 @@ export class Address {
       const values: [string, string][] = [["t", String(Number((timeNs / 1e9).toFixed(9)))]];
       if (state.node !== null) values.push(["node", this.replay.nameOf(state.node)]);
       if (state.isFollowing) values.push(["follow", "1"]);
+      if (state.sequence) values.push(["sequence", "1"]);
+      if (state.pinned.length) values.push(["pins", state.pinned.map((node) => this.replay.nameOf(node)).join()]);
       if (state.frame !== null) values.push(["frame", String(frameNumber(this.replay, state.frame))]);
       if (state.filter) values.push(["filter", state.filter]);
       // Readable: only what would end the address or a value is escaped.

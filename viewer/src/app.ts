@@ -18,6 +18,7 @@ import { Frame, Replay, startOf } from "./replay";
 import { setText } from "./rows";
 import { Scene, TRAIL_S } from "./scene";
 import { Source } from "./source";
+import { Sequence } from "./sequence";
 import { State, Store } from "./state";
 import { findStep, Goal } from "./steps";
 import { Timeline } from "./timeline";
@@ -33,6 +34,7 @@ export class App implements Actions {
   private readonly scene: Scene;
   private readonly overlay: Overlay;
   private readonly timeline: Timeline;
+  private readonly sequence: Sequence;
   private readonly controls: Controls;
   private readonly inspector: Inspector;
   private readonly list: FrameList;
@@ -63,13 +65,21 @@ export class App implements Actions {
       (timeNs) => this.seek(timeNs),
       () => this.redraw(),
     );
+    this.sequence = new Sequence(this.replay, {
+      choose: (frame) => void this.chooseFrame(frame),
+      chooseNode: (node) => this.store.set({ node }),
+      seek: (timeNs) => this.seek(timeNs),
+      redraw: () => this.redraw(),
+      close: () => this.store.set({ sequence: false }),
+    });
     const canvas = make("canvas", { class: "scene", tabindex: "0", "aria-label": "The nodes in space" });
     const labels = make("canvas", { class: "labels", "aria-hidden": "true" });
     this.layOut(canvas, labels);
     this.scene = new Scene(canvas, this.replay, () => this.redraw());
     this.overlay = new Overlay(labels, this.replay, this.scene);
-    this.overlay.onClick(canvas, (node) => {
-      if (node !== null || this.store.now.node !== null) this.store.set({ node });
+    this.overlay.onClick(canvas, (node, isToPin) => {
+      if (node !== null && isToPin) this.pin(node);
+      else if (node !== null || this.store.now.node !== null) this.store.set({ node });
     });
     this.neighbors = new Neighbors(({ timeNs, ...told }) => {
       Object.assign(this.clock, told);
@@ -130,6 +140,11 @@ export class App implements Actions {
     const { node } = this.store.now;
     const place = node === null ? (direction > 0 ? -1 : ids.length) : ids.indexOf(node);
     this.store.set({ node: ids[(place + direction + ids.length) % ids.length] });
+  }
+
+  pin(node = this.store.now.node): void {
+    const { pinned } = this.store.now;
+    if (node !== null) this.store.set({ pinned: pinned.includes(node) ? pinned.filter((one) => one !== node) : [...pinned, node] });
   }
 
   clearChoice(): void {
@@ -206,6 +221,7 @@ export class App implements Actions {
         this.controls.tools,
       ),
       make("main", { class: "stage" }, canvas, labels),
+      this.sequence.element,
       this.side,
       make("footer", {}, this.controls.bar, this.timeline.element),
       this.dialogs.run,
@@ -303,7 +319,9 @@ export class App implements Actions {
     const state = this.store.now;
     const { filter, chosen } = this;
     const look = this.replay.look(timeNs);
-    this.scene.draw({ timeNs, speed, positions, state, look, filter, interferers: chosen.interferers });
+    const picture = { timeNs, speed, positions, state, look, filter, interferers: chosen.interferers };
+    this.scene.draw(picture);
+    this.sequence.draw(picture);
     this.overlay.draw(positions, state, look);
     this.timeline.draw(timeNs);
     this.controls.update();

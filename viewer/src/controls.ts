@@ -3,7 +3,7 @@
 import { Clock, SPEEDS } from "./clock";
 import { button, make, timeText } from "./dom";
 import { setText } from "./rows";
-import { State, Store } from "./state";
+import { State, Store, Switch } from "./state";
 import { Goal } from "./steps";
 
 /** What buttons and keys can do. */
@@ -15,6 +15,8 @@ export interface Actions {
   /** Step to a frame of the chosen node. */
   stepOfNode(direction: 1 | -1): void;
   chooseNode(direction: 1 | -1): void;
+  /** Pin the chosen node, or this one, or unpin it. */
+  pin(node?: number): void;
   clearChoice(): void;
   showAll(): void;
   zoom(): void;
@@ -74,12 +76,13 @@ export class Controls {
     );
     this.addToggle("labels", "Names", "Show the names of nodes (l)");
     this.addToggle("trails", "Trails", "Show trails: the path of the last 30 s (r)");
+    this.addToggle("sequence", "Sequence", "Show which node sent when to which one (s)").classList.add("of-frames");
     const run = button("Run", "What was run (i)", () => actions.showRun());
     run.classList.add("of-frames");
     this.tools.append(run, button("Keys", "Keys (?)", () => actions.showKeys()));
   }
 
-  toggle(name: "isFollowing" | "labels" | "trails"): void {
+  toggle(name: Switch): void {
     this.store.set({ [name]: !this.store.now[name] });
   }
 
@@ -94,9 +97,10 @@ export class Controls {
       element.setAttribute("aria-pressed", String(this.store.now[name]));
   }
 
-  private addToggle(name: "isFollowing" | "labels" | "trails", label: string, title: string): void {
+  private addToggle(name: Switch, label: string, title: string): HTMLButtonElement {
     const element = button(label, title, () => this.toggle(name));
     this.toggles.set(name, element);
     this.tools.append(element);
+    return element;
   }
 }

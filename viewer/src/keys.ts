@@ -14,6 +14,8 @@ const KEYS: [keys: string, words: string][] = [
   ["Home End", "start, end"],
   ["n p", "choose the next, previous node"],
   ["f", "follow the chosen node"],
+  ["k", "pin the chosen node: its variables and its lane stay; or unpin it"],
+  ["s", "show the sequence chart"],
   ["t a z", "view from above; show all nodes; zoom in on the chosen frame or node"],
   ["l r", "show names, show trails"],
   ["/", "filter the frames"],
@@ -45,6 +47,8 @@ export function listenToKeys(controls: Controls, actions: Actions, clock: Clock)
     n: () => actions.chooseNode(1),
     p: () => actions.chooseNode(-1),
     f: () => controls.toggle("isFollowing"),
+    k: () => actions.pin(),
+    s: () => controls.toggle("sequence"),
     t: () => actions.toggleTop(),
     a: () => actions.showAll(),
     z: () => actions.zoom(),
@@ -80,7 +84,7 @@ export function keysDialog(): HTMLDialogElement {
   const rows = KEYS.map(([keys, words]) =>
     make("tr", {}, make("td", {}, ...keys.split(" ").map((key) => make("kbd", {}, key))), make("td", {}, words)),
   );
-  const mouse = "Drag to move the view, drag with the right button to turn it, turn the wheel to zoom, click a node. On the timeline, drag to move in time, turn the wheel to zoom, double click to see the whole run.";
+  const mouse = "Drag to move the view, drag with the right button to turn it, turn the wheel to zoom, click a node. On the timeline, drag to move in time, turn the wheel to zoom, double click to see the whole run. In the sequence chart, drag to see what was before or after, turn the wheel to zoom, double click to come back. Click a node with Shift to pin it.";
   return dialog("Keys", make("table", {}, make("tbody", {}, ...rows)), make("p", { class: "message" }, mouse));
 }
 

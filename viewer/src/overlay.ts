@@ -32,12 +32,12 @@ export class Overlay {
     this.drawScale(context, height);
   }
 
-  /** Call `choose` with the node clicked on the 3-D picture, or null for none. Dragging is not a click. */
-  onClick(canvas: HTMLCanvasElement, choose: (node: number | null) => void): void {
+  /** Call `choose` with the node clicked on the 3-D picture, or null for none, and whether Shift was pressed. Dragging is not a click. */
+  onClick(canvas: HTMLCanvasElement, choose: (node: number | null, isToPin: boolean) => void): void {
     const down = { x: 0, y: 0 };
     canvas.addEventListener("pointerdown", ({ offsetX, offsetY }) => Object.assign(down, { x: offsetX, y: offsetY }));
-    canvas.addEventListener("click", ({ offsetX, offsetY }) => {
-      if (Math.hypot(offsetX - down.x, offsetY - down.y) <= 4) choose(this.nodeAt(offsetX, offsetY));
+    canvas.addEventListener("click", ({ offsetX, offsetY, shiftKey }) => {
+      if (Math.hypot(offsetX - down.x, offsetY - down.y) <= 4) choose(this.nodeAt(offsetX, offsetY), shiftKey);
     });
     canvas.addEventListener("pointermove", ({ offsetX, offsetY }) => {
       canvas.style.cursor = this.nodeAt(offsetX, offsetY) === null ? "" : "pointer";

@@ -7,20 +7,29 @@ export interface State {
   node: number | null;
   /** The chosen frame. */
   frame: Frame | null;
+  /** Nodes whose lanes and variables stay when another node is chosen. */
+  pinned: readonly number[];
   filter: string;
   isFollowing: boolean;
   labels: boolean;
   trails: boolean;
+  /** Whether the sequence chart is open. */
+  sequence: boolean;
 }
+
+/** What a button switches on and off. */
+export type Switch = "isFollowing" | "labels" | "trails" | "sequence";
 
 export class Store {
   private state: State = {
     node: null,
     frame: null,
+    pinned: [],
     filter: "",
     isFollowing: false,
     labels: true,
     trails: true,
+    sequence: false,
   };
   private readonly listeners: ((changed: Partial<State>) => void)[] = [];
 
