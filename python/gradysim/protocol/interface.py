@@ -67,7 +67,7 @@ class IProvider(ABC):
 
     @abstractmethod
     def current_time(self) -> float:
-        """Time in seconds. In a simulation: since its start."""
+        """Time in seconds. In a simulation: since its start, by the clock of the node, which may drift."""
 
     @abstractmethod
     def get_id(self) -> int:

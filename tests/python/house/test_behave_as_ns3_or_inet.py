@@ -10,7 +10,6 @@ pytest.importorskip("gradysim._netsim")
 import gradysim.integrated.run
 from gradysim.integrated.network_lint import lint_networks
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.ini import PROFILES
 
 PAGE = "docs/how-to/behave-as-ns3-or-inet.md"
 
@@ -34,11 +33,3 @@ def test_its_lines_run(
     (scenario,) = load_scenarios(file, config, runs=[0], overrides=["sim-time-limit = 2s"])
     assert not lint_networks([scenario])
     assert gradysim.integrated.run.run(scenario).fates["frames"]["broadcast"]["delivered"] > 0
-
-
-@pytest.mark.parametrize("profile", sorted(PROFILES.glob("*.ini")), ids=lambda file: file.stem)
-def test_each_key_of_a_profile_is_in_its_table(root: Path, profile: Path) -> None:
-    page = (root / PAGE).read_text(encoding="utf-8")
-    keys = [line.partition(" =")[0] for line in profile.read_text().splitlines() if line[:1] == "*"]
-    assert keys
-    assert [key for key in keys if key.split(".")[-2 if key.endswith("typename") else -1] not in page] == []

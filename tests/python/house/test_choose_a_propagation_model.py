@@ -1,5 +1,6 @@
 """The engine accepts the lines in docs/how-to/choose-a-propagation-model.md."""
 
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -41,3 +42,14 @@ def test_every_model_has_a_row(guide: str, key: Key) -> None:
 
 def test_every_material_is_named(guide: str) -> None:
     assert f"P.2040-3: {', '.join(MATERIALS)}." in " ".join(guide.split())
+
+
+def test_grounds_reflect_as_its_table_says(guide: str) -> None:
+    rows = re.findall(r"^\| .* \| ([\d.]+) \| (\d+) % \|$", guide, re.MULTILINE)
+    assert len(rows) == 4
+    sine, cosine = math.sin(math.radians(10)), math.cos(math.radians(10))
+    for permittivity, percent in rows:
+        refracted = math.sqrt(float(permittivity) - cosine**2)  # Rappaport, Wireless Communications
+        assert round(100 * abs((sine - refracted) / (sine + refracted))) == int(percent)
+    default = next(key for key in PATH_LOSS_KEYS if key.path.endswith("epsilon_r")).default
+    assert f"an `epsilon_r` of {default}" in guide

@@ -48,3 +48,14 @@ def test_nine_of_ten_messages_go_as_far_as_it_says(guide: str, root: Path) -> No
     )
     frames = run(scenario).fates["frames"]["unicast"]
     assert frames["delivered"] / (frames["delivered"] + frames["noise"]) == pytest.approx(0.9, abs=0.02)
+
+
+@pytest.mark.parametrize("medium", ["", "airtime"])
+def test_frames_on_a_unit_disk_take_time_with_airtime(guide: str, root: Path, medium: str) -> None:
+    assert '`*.radioMedium.timing = "airtime"`' in " ".join(guide.split())
+    lines = ['*.radioMedium.typename = "UnitDiskRadioMedium"']
+    lines += [f'*.radioMedium.timing = "{medium}"'] if medium else []
+    overrides = [*lines, "sim-time-limit = 5s"]
+    (scenario,) = load_scenarios(root / "configs/sensor_field.ini", overrides=overrides)
+    delays = run(scenario).message_delays["unicast"]
+    assert (delays.mean_s > 1e-3) == bool(medium)

@@ -1,0 +1,28 @@
+"""The commands of docs/how-to/let-clocks-drift.md in sh print what the page shows."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+PAGE = "docs/how-to/let-clocks-drift.md"
+
+Shell = Callable[[str, Path], str]
+
+
+def test_most_reports_arrive(
+    code_blocks: Callable[[str, str], list[str]], shell: Shell, shows: Callable[..., None], tmp_path: Path
+) -> None:
+    shows(PAGE, shell(code_blocks(PAGE, "sh")[0], tmp_path), part=True)
+
+
+@pytest.mark.parametrize("mode", ["integrated", "prototype"])
+def test_a_timer_fires_when_the_clock_of_its_node_says_so(
+    root: Path, shell: Shell, swarm: Path, mode: str
+) -> None:
+    drift = "*.vehicles[0].clock.oscillator.driftRate=1000ppm"
+    command = f"gradysim run swarm/swarm.ini --mode {mode} --set '{drift}' --trace 'vehicles[0]' --quiet"
+    first = next(line for line in shell(command, swarm).splitlines() if " timer " in line)
+    assert f"{first.split()[0]} s" in " ".join((root / PAGE).read_text().split())
