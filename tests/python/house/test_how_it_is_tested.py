@@ -30,3 +30,12 @@ def test_every_directory_of_tests_is_named(root: Path, page: str) -> None:
         re.findall(r"`(tests/\w+)", page)
     )
     assert unnamed == set()
+
+
+def test_the_numbers_of_random_networks_are_those_of_the_test(root: Path, page: str) -> None:
+    source = (root / "tests/verification/test_oracle.py").read_text(encoding="utf-8")
+    counts = re.findall(r"(?:random|exact)_case, (\d+), (\d+)\)", source)
+    some, all_of_them = (sum(int(each[place]) for each in counts) for place in (0, 1))
+    for text in (page, (root / "docs/verification/README.md").read_text(encoding="utf-8")):
+        words = " ".join(text.split())
+        assert re.search(rf"`make test` compares {some} .*?`make verify` {all_of_them:,}\.", words)

@@ -2,6 +2,7 @@
 
 import ast
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -67,3 +68,11 @@ def test_prototype_mode_runs_without_the_compiled_part(root: Path) -> None:
         check=False,
     )
     assert outcome.returncode == 0, outcome.stderr
+
+
+def test_contributing_lists_the_packages(root: Path) -> None:
+    packages = {file.parent.name for file in (root / "python/gradysim").glob("*/__init__.py")}
+    (listed,) = re.findall(
+        r"^python/gradysim +(.*?), from the bottom", (root / "CONTRIBUTING.md").read_text(), re.M | re.S
+    )
+    assert set(re.findall(r"\w+", listed)) == packages
