@@ -271,6 +271,9 @@ class MediumFields:
     """Relative permittivity of the ground."""
     polarization: str
     """Polarization of the antennas."""
+    inet_vertical_sign: bool
+    """Whether the ground reflects vertical polarization with the opposite sign, as in INET: far away,
+    the rays then add up instead of cancelling."""
     sigma_db: float
     """Standard deviation in dB, as a plain number."""
     k_db: float

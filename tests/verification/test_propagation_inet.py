@@ -30,6 +30,7 @@ PATH_LOSSES: dict[str, Fields] = {
         "path_loss": "TwoRayInterference",
         "epsilon_r": 15.0,
         "polarization": "vertical",
+        "inet_vertical_sign": True,
     },
 }
 PARABOLIC: Fields = {
@@ -109,7 +110,7 @@ def test_path_losses_are_inets(report: Callable[[Finding], None]) -> None:
     report(
         Finding(
             "path loss from 8 m to 2 km: free space with an exponent of 3, breakpoint, two-ray ground "
-            "reflection, two-ray interference with both polarizations, against INET",
+            "reflection, two-ray interference with both polarizations and INET's sign, against INET",
             f"differs by at most {max(off):.1g} at {len(off)} points",
             "1e-9",
             "nothing is random; the phase of two-ray interference, of up to 16,000 wavelengths, is known to "

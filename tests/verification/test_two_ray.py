@@ -30,8 +30,6 @@ def interference(ground_m: float, low_m: float, high_m: float, epsilon_r: float,
     bent = sqrt(epsilon_r - cosine**2).real
     straight = sine if polarization == "horizontal" else epsilon_r * sine
     coefficient = (straight - bent) / (straight + bent)
-    if polarization == "vertical":
-        coefficient = -coefficient
     amplitude = free_space_amplitude(direct_m) * sum(
         strength * exp(-2j * pi * length_m / WAVELENGTH_M)
         for strength, length_m in ((1.0, direct_m), (coefficient, reflected_m))

@@ -69,6 +69,11 @@ constexpr Field fields[] = {
      "relative permittivity of the ground", with_two_ray},
     {NETSIM_FIELD(MediumConfig, polarization), "pathLoss.polarization", one_of(polarization_names),
      "polarization of the antennas", with_two_ray},
+    {NETSIM_FIELD(MediumConfig, inet_vertical_sign), "pathLoss.inetVerticalSign", boolean(),
+     "whether the ground reflects vertical polarization with the opposite sign, as in INET: far away, the "
+     "rays "
+     "then add up instead of cancelling",
+     with_two_ray},
     {NETSIM_FIELD(MediumConfig, sigma_db), "pathLoss.sigma", number().at_least(0).at_most(40),
      "standard deviation in dB, as a plain number", with_shadowing},
     {NETSIM_FIELD(MediumConfig, k_db), "pathLoss.k", quantity("dB").at_least(-100).at_most(100),

@@ -63,6 +63,7 @@ struct MediumConfig {
     double alpha2 = 3.3;
     double epsilon_r = 1.02;
     std::string polarization = "horizontal";
+    bool inet_vertical_sign = false;
     double sigma_db = 1;
     double k_db = 8;
     double shape_factor = 1;

@@ -9,7 +9,10 @@
 namespace netsim {
 
 TwoRay::TwoRay(const MediumConfig& config)
-    : alpha_(config.alpha), epsilon_r_(config.epsilon_r), is_vertical_(config.polarization == "vertical") {
+    : alpha_(config.alpha),
+      epsilon_r_(config.epsilon_r),
+      is_vertical_(config.polarization == "vertical"),
+      sign_(is_vertical_ && config.inet_vertical_sign ? -1 : 1) {
     if (config.path_loss == "TwoRayGroundReflection") {
         kind_ = Kind::ground_reflection;
     } else if (config.path_loss == "TwoRayInterference") {
@@ -62,7 +65,7 @@ double TwoRay::interference_factor(const Position& a, const Position& b, double 
     if (straight + bent == 0) {
         return 1;  // ε = 1: there is no ground
     }
-    const double reflection = (is_vertical_ ? bent - straight : straight - bent) / (straight + bent);
+    const double reflection = sign_ * (straight - bent) / (straight + bent);
     return std::max(1 + reflection * (reflection + 2 * std::cos(phase)), 0.0);
 }
 

@@ -6,8 +6,10 @@
 //   TwoRayInterference: λ² / (16 π² d²) · |1 + Γ e^(iφ)|², where φ = 2 π (d' − d) / λ is by how much the reflected ray,
 //     of length d', lags behind, and Γ is Fresnel's coefficient for a ground of relative permittivity ε. With θ the
 //     angle between ray and ground and q = √(ε − cos² θ), Γ is (sin θ − q) / (sin θ + q) for horizontal polarization
-//     and (q − ε sin θ) / (q + ε sin θ) for vertical. Source: C. Sommer, F. Dressler, "Using the right two-ray model? A
-//     measurement-based evaluation of PHY models in VANETs", MobiCom 2011 poster; Rappaport, 4.5.
+//     and (ε sin θ − q) / (ε sin θ + q) for vertical. Source: C. Sommer, F. Dressler, "Using the right two-ray model? A
+//     measurement-based evaluation of PHY models in VANETs", MobiCom 2011 poster; Rappaport, 4.5. Rappaport's vertical
+//     coefficient has the opposite sign, since it counts the field along another axis. INET uses it as it is, and so
+//     does inet_vertical_sign. With the signs above, both are −1 along the ground, as far away as h² h'² / d⁴ holds.
 // If an end is on the ground, nothing is received far away: the rays cancel. Set heights for these
 // models.
 #pragma once
@@ -41,6 +43,7 @@ private:
     double alpha_;
     double epsilon_r_;
     bool is_vertical_;
+    double sign_;  // of the reflected ray
 };
 
 }  // namespace netsim

@@ -46,7 +46,7 @@ def lint_networks(scenarios: Iterable[Scenario]) -> list[Finding]:
     for scenario in different.values():
         medium = medium_config(scenario)
         _add_lines(unread, scenario, medium)
-        findings += _nodes_on_the_ground(scenario, medium)
+        findings += _ground(scenario, medium)
         findings += _obstacles_far_from_all_nodes(scenario)
         if has_radios(medium.typename):
             findings += _stations_without_a_common_mode(scenario)
@@ -176,11 +176,18 @@ def _chosen(structs: Mapping[str, object], written: Container[str]) -> Chosen:
     return chosen
 
 
-def _nodes_on_the_ground(scenario: Scenario, medium: "MediumConfig") -> Iterator[Finding]:
+def _ground(scenario: Scenario, medium: "MediumConfig") -> Iterator[Finding]:
     path_loss = scenario.medium.get("path_loss")
-    hint = ground_hint(medium, scenario.nodes)
-    if path_loss is not None and hint:
+    if path_loss is None or not has_radios(medium.typename):
+        return
+    if hint := ground_hint(medium, scenario.nodes):
         yield Finding(path_loss.source, hint)
+    if medium.path_loss == "TwoRayInterference" and "epsilon_r" not in scenario.medium:
+        yield Finding(
+            path_loss.source,
+            f"a ground with the default permittivity of {medium.epsilon_r:g} hardly reflects; expected"
+            f" `*.{KEYS['medium.epsilon_r'].written} =` 3 for dry soil, 15 for moist soil, or 81 for the sea",
+        )
 
 
 def _obstacles_far_from_all_nodes(scenario: Scenario) -> Iterator[Finding]:

@@ -19,11 +19,12 @@ double loss_db(const MediumConfig& config, const Position& a, const Position& b)
 }
 
 double interference_loss_db(const Position& a, const Position& b, double epsilon_r = 1.02,
-                            const std::string& polarization = "horizontal") {
+                            const std::string& polarization = "horizontal", bool inet_vertical_sign = false) {
     MediumConfig config;
     config.path_loss = "TwoRayInterference";
     config.epsilon_r = epsilon_r;
     config.polarization = polarization;
+    config.inet_vertical_sign = inet_vertical_sign;
     return loss_db(config, a, b);
 }
 
@@ -38,9 +39,27 @@ TEST(TwoRayInterference, IsTheSumOfTwoRays) {
     EXPECT_NEAR(interference_loss_db({0, 0, 1.5}, {100, 0, 1.5}), 76.515662676431545, 1e-9);
     EXPECT_NEAR(interference_loss_db({0, 0, 20}, {300, 400, 60}), 93.550862401958083, 1e-9);
     EXPECT_NEAR(interference_loss_db({0, 0, 20}, {300, 400, 60}, 15), 90.01587644303058, 1e-9);
-    EXPECT_NEAR(interference_loss_db({0, 0, 20}, {300, 400, 60}, 15, "vertical"), 94.682716523795352, 1e-9);
-    EXPECT_NEAR(interference_loss_db({0, 0, 2}, {5000, 0, 1}, 4, "vertical"), 108.06793267497294, 1e-9);
+    EXPECT_NEAR(interference_loss_db({0, 0, 20}, {300, 400, 60}, 15, "vertical"), 93.216756075462540, 1e-9);
+    EXPECT_NEAR(interference_loss_db({0, 0, 2}, {5000, 0, 1}, 4, "vertical"), 141.93048013981582, 1e-7);
     EXPECT_NEAR(interference_loss_db({0, 0, 2}, {5000, 0, 1}, 4), 141.94052751792953, 1e-7);
+}
+
+TEST(TwoRayInterference, FarAwayIsTheLimitOfTheGroundReflectionForBothPolarizations) {
+    for (const char* polarization : {"horizontal", "vertical"}) {
+        for (const double distance_m : {2000.0, 20000.0}) {
+            const Position a{0, 0, 1.2};
+            const Position b{distance_m, 0, 1.2};
+            EXPECT_NEAR(interference_loss_db(a, b, 5, polarization), reflection_loss_db(a, b), 0.03)
+                << polarization;
+        }
+    }
+}
+
+TEST(TwoRayInterference, TheSignOfInetIsForVerticalPolarizationOnly) {
+    const Position a{0, 0, 20};
+    const Position b{300, 400, 60};
+    EXPECT_NEAR(interference_loss_db(a, b, 15, "vertical", true), 94.682716523795352, 1e-9);
+    EXPECT_EQ(interference_loss_db(a, b, 15, "horizontal", true), interference_loss_db(a, b, 15));
 }
 
 TEST(TwoRayInterference, WithoutAGroundIsFreeSpace) {

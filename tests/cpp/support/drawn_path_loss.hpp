@@ -28,6 +28,7 @@ inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws)
     config.alpha2 = between(1.5, 5);
     config.epsilon_r = chance(0.1) ? 1 : log_between(1, 20);
     config.polarization = std::string(polarization_names[draws.uniform_int(2)]);
+    config.inet_vertical_sign = chance(0.2);
     config.sigma_db = chance(0.1) ? 0 : between(0, 10);
     config.k_db = between(-20, 30);
     config.shape_factor = chance(0.2) ? 1 : log_between(0.5, 50);

@@ -300,9 +300,16 @@ def test_obstacles_of_a_file_count_too() -> None:
 
 def test_nodes_on_the_ground_under_two_rays(findings: Findings) -> None:
     chosen = '*.radioMedium.pathLoss.typename="TwoRayInterference"'
-    (finding,) = findings(chosen)
+    (finding,) = findings(chosen, "*.radioMedium.pathLoss.epsilon_r=15")
     assert finding.key == chosen.partition("=")[0]
     assert "TwoRayInterference" in finding.message
+
+
+def test_a_ground_that_hardly_reflects(findings: Findings) -> None:
+    chosen = '*.radioMedium.pathLoss.typename="TwoRayInterference"'
+    (finding,) = findings(chosen, "*.*[*].mobility.initialZ=2m", "*.*.mobility.initialZ=2m")
+    assert finding.key == chosen.partition("=")[0]
+    assert "permittivity of 1.02" in finding.message
 
 
 @pytest.mark.parametrize(("file", "config"), EXAMPLES, ids=lambda part: getattr(part, "stem", part))

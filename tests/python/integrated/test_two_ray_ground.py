@@ -1,12 +1,14 @@
-"""Nodes on the ground, where both rays cancel."""
+"""Two rays: nodes on the ground, where both cancel, and nodes far away, where they nearly do."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
 from gradysim.integrated.network import medium_config
+from gradysim.integrated.run import run
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario import Scenario
+from gradysim.scenario import Scenario, load_scenarios
 
 
 @pytest.fixture
@@ -48,3 +50,47 @@ def test_of_one_that_is_there_alone_no_others_are_told(hint: Callable[..., str])
 )
 def test_where_nothing_cancels_nothing_is_told(hint: Callable[..., str], settings: list[str]) -> None:
     assert hint(*settings) == ""
+
+
+VERTICAL = '*.radioMedium.pathLoss.polarization="vertical"'
+
+
+@pytest.mark.parametrize(
+    ("settings", "delivered"),
+    [
+        (['*.radioMedium.pathLoss.polarization="horizontal"'], 0),
+        (['*.radioMedium.pathLoss.polarization="vertical"'], 0),
+        (
+            [
+                '*.radioMedium.pathLoss.polarization="vertical"',
+                "*.radioMedium.pathLoss.inetVerticalSign=true",
+            ],
+            9,
+        ),
+        ([path_loss("TwoRayGroundReflection")], 0),
+    ],
+    ids=["horizontal", "vertical", "vertical as in INET", "limit"],
+)
+def test_at_500_m_a_low_radio_hears_nothing(tmp_path: Path, settings: list[str], delivered: int) -> None:
+    (tmp_path / "far.ini").write_text(FAR)
+    (scenario,) = load_scenarios(tmp_path / "far.ini", overrides=settings)
+    result = run(scenario)
+    assert result.fates["frames"]["broadcast"]["delivered"] == delivered
+
+
+FAR = """
+[General]
+sim-time-limit = 9.5s
+*.numTx = 1
+*.numRx = 1
+*.tx[*].protocol.typename = "BeaconProtocol"
+*.rx[*].protocol.typename = "SinkProtocol"
+*.*[*].mobility.initialZ = 1.2m
+*.rx[*].mobility.initialX = 500m
+*.radioMedium.pathLoss.typename = "TwoRayInterference"
+*.radioMedium.pathLoss.epsilon_r = 5
+*.radioMedium.backgroundNoise.power = -95dBm
+**.wlan[*].radio.transmitter.power = 1mW
+**.wlan[*].radio.receiver.sensitivity = -120dBm
+**.wlan[*].bitrate = 6Mbps
+"""
