@@ -1,7 +1,10 @@
 """The commands of docs/how-to/choose-the-number-of-runs.md print what the page shows."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
+from random import Random
+from statistics import fmean
 
 import pytest
 
@@ -40,3 +43,24 @@ def test_its_numbers_of_runs_follow_from_the_interval(root: Path) -> None:
         assert found[0] >= percent > found[1]
     assert "20 % of a probability of 0.02 takes about 5,000 runs" in text
     assert percent_of_mean(estimate([1] * 100 + [0] * 4900, binary=True)) == pytest.approx(20, rel=0.01)
+
+
+@pytest.mark.verify
+def test_intervals_of_normal_results_hold_as_often_as_it_says(root: Path) -> None:
+    text = " ".join((root / GUIDE).read_text().split())
+    assert "deviations of 5, 10, 20 and 40 % of the mean" in text
+    told, least = re.findall(
+        r"takes a mean of ([\d, and]+) runs, .*? in at least (\d+) of 100 studies", text
+    )[0]
+    random, studies = Random(1), 400
+    for deviation, mean_runs in zip((0.05, 0.1, 0.2, 0.4), map(int, re.findall(r"\d+", told)), strict=True):
+        counts, held = [], 0
+        for _ in range(studies):
+            values: list[float] = []
+            while not values or percent_of_mean(estimate(values)) >= 5:
+                values += [random.gauss(1, deviation) for _ in range(5)]
+            found = estimate(values)
+            counts.append(len(values))
+            held += found.low <= 1 <= found.high
+        assert fmean(counts) == pytest.approx(mean_runs, rel=0.1)
+        assert held / studies >= int(least) / 100
