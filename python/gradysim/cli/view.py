@@ -57,11 +57,13 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
 def check_replays(files: Sequence[Path]) -> None:
     """Warn of replays that end early. Raises ConfigError, OSError and ValueError for other files."""
     from gradysim.replay.file import read_parts
+    from gradysim.results.durable import naming
     from gradysim.scenario.errors import ConfigError, nearest_file
 
     for file in files:
         try:
-            _, _, end = read_parts(file)
+            with naming(file):
+                _, _, end = read_parts(file)
         except FileNotFoundError as error:
             raise ConfigError(
                 f"{file}: {error.strerror}",
