@@ -72,6 +72,10 @@ def obstacles(version: str) -> Iterator[str]:
         yield f"CHANGELOG.md: expected the heading `## {expected}`, got `## {heading}`"
     elif not notes:
         yield f"CHANGELOG.md: nothing under `## {heading}`"
+    if is_dated(heading, version):
+        for line in (f"version: {version}", f"date-released: {heading[-11:-1]}"):
+            if line not in Path("CITATION.cff").read_text().splitlines():
+                yield f"CITATION.cff: expected `{line}`"
 
 
 def check(version: str) -> None:

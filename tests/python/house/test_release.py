@@ -40,6 +40,9 @@ def clone(root: Path, tmp_path: Path) -> Path:
     project.write_text(
         re.sub(r"(?m)^fallback_version = .*$", 'fallback_version = "1.2.3.dev0"', project.read_text())
     )
+    citation = directory / "CITATION.cff"
+    dated = re.sub(r"(?m)^version: .*$", "version: 1.2.3", citation.read_text())
+    citation.write_text(re.sub(r"(?m)^date-released: .*$", "date-released: 2026-11-30", dated))
     open_changelog(directory, "1.2.3 (2026-11-30)")
     return directory
 
@@ -127,6 +130,8 @@ def test_a_section_without_notes_is_refused(clone: Path, root: Path) -> None:
 
 
 def test_another_version_than_the_next_one_is_refused(clone: Path, root: Path) -> None:
+    citation = clone / "CITATION.cff"
+    citation.write_text(citation.read_text().replace("version: 1.2.3", "version: 2.0.0"))
     open_changelog(clone, "2.0.0 (2026-11-30)")
     message = "pyproject.toml: expected fallback_version `2.0.0.dev0`, got `1.2.3.dev0`"
     expect(clone, root, message, version="2.0.0")
@@ -152,3 +157,12 @@ def test_a_pre_release_has_the_notes_so_far(clone: Path, root: Path, version: st
 def test_a_pre_release_comes_before_its_release(clone: Path, root: Path) -> None:
     message = "CHANGELOG.md: expected the heading `## Unreleased (1.2.3)`, got `## 1.2.3 (2026-11-30)`"
     expect(clone, root, message, version="1.2.3rc1")
+
+
+def test_a_citation_of_another_version_keeps_a_release_back(clone: Path, root: Path) -> None:
+    citation = clone / "CITATION.cff"
+    citation.write_text(
+        citation.read_text().replace("date-released: 2026-11-30", "date-released: 2026-11-29")
+    )
+    git(clone, "commit", "--quiet", "--all", "--message", "Date the citation")
+    assert release(clone, root, "check").stderr == "CITATION.cff: expected `date-released: 2026-11-30`\n"
