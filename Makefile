@@ -142,6 +142,7 @@ figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: r
 	rm docs/pictures/ladder/*.csv docs/pictures/ladder/*.json
 	cp results/line.png results/diff.png results/outcomes.png results/cdf.png results/time.png results/map.png docs/pictures/plots
 	cp results/compare.png docs/pictures/plots
+	python docs/pictures/gallery/draw.py
 
 pictures: figures $(node_packages) system-chromium  ## Draw the pictures of the README and the guides again.
 	$(BIN)/python docs/pictures/draw.py

@@ -10,8 +10,12 @@ from pathlib import Path
 import gradysim
 
 _FILES = {
-    "fading": ("configs/fading.ini", "examples/reference/beacon.py", "examples/reference/sink.py"),
-    "scouts": ("configs/scouts.ini", "examples/scouts"),
+    "search": ("configs/search.ini", "examples/search"),
+    "coverage": ("configs/coverage.ini", "examples/coverage"),
+    "relay_chain": ("configs/relay_chain.ini", "examples/relay_chain"),
+    "data_mule": ("configs/data_mule.ini", "examples/data_mule"),
+    "leader_election": ("configs/leader_election.ini", "examples/leader_election"),
+    "collision_avoidance": ("configs/collision_avoidance.ini", "examples/collision_avoidance"),
     "sensor_field": ("configs/sensor_field.ini", "examples/sensor_field", "examples/reference/beacon.py"),
     "town": (
         "configs/town/town.ini",
@@ -19,16 +23,19 @@ _FILES = {
         "examples/reference/beacon.py",
         "examples/reference/sink.py",
     ),
+    "hidden_terminals": ("configs/hidden_terminals.ini", "examples/hidden_terminals"),
     "zigzag": ("configs/zigzag.ini", "examples/zigzag", "examples/paper"),
+    "scouts": ("configs/scouts.ini", "examples/scouts"),
+    "fading": ("configs/fading.ini", "examples/reference/beacon.py", "examples/reference/sink.py"),
 }
-"""{example: its .ini file, then other files and directories}."""
+"""{example: its .ini file, then other files and directories}, in the order of docs/gallery.md."""
 
 NAMES = tuple(_FILES)
 
-_FOLDER = re.compile(r"(?<![\w/.])(?:\.\./)*(?:configs/(?:town/)?|examples/(?:reference/)?)(?=\w)")
-"""Folders of the repository that a copy does not have."""
+_FOLDER = re.compile(r"(?<![\w/.])(?:\.\./)*(?:configs/(?:town/)?|examples/\w+/)(?=\w)")
+"""Folders of the repository: a copy has all files in one."""
 
-_SCENARIOS = re.compile(r"""parents\[2\] / "configs\"""")
+_SCENARIOS = re.compile(r'parents\[2\] / "configs"')
 """The folder of the scenarios, seen from that of a script."""
 
 _COMMAND = re.compile(r"^#     ((?:gradysim|python) .*)$", re.MULTILINE)
@@ -72,4 +79,4 @@ def copy_files(name: str, directory: Path) -> None:
 
 def _in_copy(text: str) -> str:
     """Return a text of the repository as a copy has it, with other paths of files."""
-    return _SCENARIOS.sub("parents[1]", _FOLDER.sub("", text))
+    return _SCENARIOS.sub("parent", _FOLDER.sub("", text))

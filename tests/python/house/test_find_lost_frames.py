@@ -30,7 +30,7 @@ def test_its_rows_of_interference_are_those_of_the_summary(
     table = code_blocks(GUIDE, "text")[0]
     assert {row["at"] for row in rows} == {"vehicles[0]", "station"}
     for row in rows:
-        assert row["run"] == 12
+        assert row["run"] == 6
         (line,) = (
             line for line in table.splitlines() if line.startswith(row["at"]) and f"{row['by']} " in line
         )

@@ -31,9 +31,10 @@ def test_repetitions_are_added(
     code_blocks: CodeBlocks, shell: Callable[[str, Path], str], tmp_path: Path
 ) -> None:
     shell("gradysim new swarm", tmp_path)
-    with (tmp_path / "swarm/swarm.ini").open("a") as file:
-        file.write(code_blocks(GUIDE, "ini")[0])
-    command = "gradysim run swarm/swarm.ini -c Growing --result-dir results --quiet"
+    study = (tmp_path / "swarm/swarm.ini").read_text().partition("[Config Study]")[2].splitlines()
+    for line in code_blocks(GUIDE, "ini")[0].splitlines()[1:]:
+        assert line in study
+    command = "gradysim run swarm/swarm.ini -c Study --result-dir results --quiet"
     shell(command, tmp_path)
     printed = shell(f"{command} --set repeat=6 --resume 2>&1", tmp_path)
     assert "20 of 24 runs are in results (0..19) and left out" in printed

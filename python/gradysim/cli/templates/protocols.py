@@ -56,9 +56,6 @@ class Vehicle(IProtocol):
             self.is_outbound = not self.is_outbound
             self.turn()
 
-    def finish(self) -> None:
-        """Called once, when the run is over."""
-
 
 class Station(IProtocol):
     """Counts the reports that arrive."""
@@ -75,9 +72,3 @@ class Station(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Called when a timer is due. The station sets none."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Called with the position of the node. The station stands still."""
-
-    def finish(self) -> None:
-        """Called once, when the run is over."""
