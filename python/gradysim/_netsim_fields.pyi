@@ -15,11 +15,17 @@ class MobilityFields:
     10ms, or as often as the shortest interval says; beside quadcopters and autopilots the interval
     cannot be shorter than that."""
     position_error_m: float
-    """Standard deviation of the error of the position that telemetry reports, on each horizontal axis;
-    of z it is 1.5 times as large. QuadcopterMobility flies by this position; radios are where the node
-    is."""
+    """Standard deviation of the error of the position that telemetry reports, on each horizontal axis.
+    QuadcopterMobility flies by this position; radios are where the node is."""
     position_error_time_s: float
     """Time in which the error changes: after it, its correlation is 1/e."""
+    position_error_ratio: float
+    """Standard deviation of the error of z over that of a horizontal axis."""
+    acceleration_mps2: float
+    """Largest horizontal and vertical acceleration in m/s²; before a target it brakes with 0.8 times as
+    much."""
+    drag_kgps: float
+    """Force of the air in N per m/s of airspeed, on a vehicle of 2 kg."""
     initial_heading_rad: float
     """How the node is turned at the start: from the x axis to the y axis."""
     initial_elevation_rad: float

@@ -11,6 +11,10 @@ constexpr std::array<std::string_view, 6> moving{mobility_type_names[0], mobilit
                                                  mobility_type_names[5], "ArdupilotMobility"};
 constexpr std::array<std::string_view, 2> in_an_area{mobility_type_names[2], mobility_type_names[4]};
 constexpr ReadBy with_motion{"mobility.typename", moving, ""};
+constexpr ReadBy with_controller{"mobility.typename", std::span(mobility_type_names).subspan(5, 1),
+                                 "QuadcopterMobility"};
+constexpr ReadBy with_drag{"mobility.typename", std::span(moving).subspan(4),
+                           "QuadcopterMobility, ArdupilotMobility"};
 constexpr ReadBy with_area{"mobility.typename", in_an_area, "LinearMobility, RectangleMobility"};
 constexpr ReadBy with_line{"mobility.typename", std::span(mobility_type_names).subspan(2, 1),
                            "LinearMobility"};
@@ -40,10 +44,18 @@ constexpr Field fields[] = {
      "as the"
      " shortest interval says; beside quadcopters and autopilots the interval cannot be shorter than that"},
     {NETSIM_FIELD(MobilityConfig, position_error_m), "positionError", quantity("m").at_least(0).at_most(1e6),
-     "Standard deviation of the error of the position that telemetry reports, on each horizontal axis; of z "
-     "it is 1.5 times as large. QuadcopterMobility flies by this position; radios are where the node is"},
+     "Standard deviation of the error of the position that telemetry reports, on each horizontal axis. "
+     "QuadcopterMobility flies by this position; radios are where the node is"},
     {NETSIM_FIELD(MobilityConfig, position_error_time_s), "positionErrorTime", quantity("s").above(0),
      "Time in which the error changes: after it, its correlation is 1/e"},
+    {NETSIM_FIELD(MobilityConfig, position_error_ratio), "positionErrorRatio",
+     number().at_least(0).at_most(100),
+     "Standard deviation of the error of z over that of a horizontal axis"},
+    {NETSIM_FIELD(MobilityConfig, acceleration_mps2), "acceleration", number().at_least(0.01).at_most(10),
+     "Largest horizontal and vertical acceleration in m/s²; before a target it brakes with 0.8 times as much",
+     with_controller},
+    {NETSIM_FIELD(MobilityConfig, drag_kgps), "drag", number().at_least(0).at_most(10),
+     "Force of the air in N per m/s of airspeed, on a vehicle of 2 kg", with_drag},
     {"initial_heading_rad", &member<&MobilityConfig::initial_orientation, &EulerAngles::heading_rad>,
      "initialHeading", angle(), "How the node is turned at the start: from the x axis to the y axis"},
     {"initial_elevation_rad", &member<&MobilityConfig::initial_orientation, &EulerAngles::elevation_rad>,

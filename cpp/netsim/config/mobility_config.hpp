@@ -22,7 +22,12 @@ struct MobilityConfig {
     double telemetry_interval_s = 0.01;  // 0: no telemetry
 
     double position_error_m = 0;
-    double position_error_time_s = 30;
+    double position_error_time_s = 175;
+    double position_error_ratio = 2.3;
+
+    // Of QuadcopterMobility.
+    double acceleration_mps2 = 2.5;
+    double drag_kgps = 0.3;
 
     EulerAngles initial_orientation{};
     bool face_forward = false;

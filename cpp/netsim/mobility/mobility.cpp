@@ -43,7 +43,9 @@ std::unique_ptr<Mobility> make_model(const MobilityConfig& config, Position init
         return std::make_unique<PathMobility>(std::move(path));
     }
     if (config.type_name == "QuadcopterMobility") {
-        return std::make_unique<QuadcopterMobility>(initial, config.speed_mps, Wind(wind, seed, node));
+        const Airframe airframe{.acceleration_mps2 = config.acceleration_mps2, .drag_kgps = config.drag_kgps};
+        return std::make_unique<QuadcopterMobility>(initial, config.speed_mps, airframe,
+                                                    Wind(wind, seed, node));
     }
     NETSIM_ASSERT(config.type_name == "MasslessMobility");
     return std::make_unique<MasslessMobility>(initial, config.speed_mps);
@@ -52,12 +54,12 @@ std::unique_ptr<Mobility> make_model(const MobilityConfig& config, Position init
 // Slow, as that of a satellite receiver.
 std::unique_ptr<GaussMarkov> make_position_error(const MobilityConfig& config, std::uint64_t seed,
                                                  std::uint32_t node) {
-    constexpr double vertical_share = 1.5;
     constexpr double interval_s = 1;
     const double deviation_m = config.position_error_m;
-    return std::make_unique<GaussMarkov>(RandomStream(seed, node, Purpose::position_error),
-                                         Position{deviation_m, deviation_m, vertical_share * deviation_m},
-                                         config.position_error_time_s, interval_s);
+    return std::make_unique<GaussMarkov>(
+        RandomStream(seed, node, Purpose::position_error),
+        Position{deviation_m, deviation_m, config.position_error_ratio * deviation_m},
+        config.position_error_time_s, interval_s);
 }
 
 }  // namespace

@@ -16,16 +16,13 @@ constexpr Position inertia_kgm2{0.03, 0.03, 0.05};
 constexpr double arm_m = 0.25;
 constexpr double hover_thrust = 0.35;
 constexpr double torque_m = 0.02;
-constexpr double drag_kgps = 0.3;
 constexpr double rotation_drag_nms = 0.05;
 constexpr double friction = 0.5;
 constexpr double max_thrust_n = mass_kg * gravity_mps2 / (4 * hover_thrust);
 const double lever_m = arm_m * std::sqrt(0.5);
-constexpr double drag_per_s = drag_kgps / mass_kg;
 
 // The controller: see gradysim.motion.flight_controller.
-constexpr double max_acceleration_mps2 = 2.5;
-constexpr double braking_mps2 = 2.0;
+constexpr double braking_share = 0.8;
 constexpr double climb_mps = 2.5;
 constexpr double descent_mps = 1.5;
 constexpr double least_height_m = 0.5;
@@ -36,7 +33,6 @@ constexpr double attitude_gain = 8.0;
 constexpr double rate_gain = 25.0;
 constexpr double max_rate_radps = 3.0;
 constexpr double drag_time_s = 0.5;
-constexpr double linear_m = braking_mps2 / (position_gain * position_gain);
 const double tan_tilt = std::tan(30 * (std::numbers::pi / 180));
 constexpr double least_lift_mps2 = 0.3 * gravity_mps2;
 constexpr double filter = Quadcopter::step_s / drag_time_s;
@@ -45,21 +41,21 @@ const double pitch_n = inertia_kgm2.y * rate_gain / (4 * lever_m);
 constexpr double yaw_n = inertia_kgm2.z * rate_gain / (4 * torque_m);
 constexpr double max_yaw_n = 1.0;
 
-// The speed at a distance from the target with which it stops there by `braking_mps2`.
-double approach_mps(double distance_m, double limit_mps) {
-    const double speed = distance_m > linear_m ? std::sqrt(2 * braking_mps2 * (distance_m - linear_m / 2))
-                                               : position_gain * distance_m;
-    return std::min(speed, limit_mps);
-}
-
 double limited(double value, double limit) {
     return std::clamp(value, -limit, limit);
 }
 
 }  // namespace
 
-Quadcopter::Quadcopter(Position start, double speed_mps, const Wind& wind)
-    : position_{start.x, start.y, 0.0 - start.z}, target_(position_), speed_mps_(speed_mps), wind_(wind) {}
+Quadcopter::Quadcopter(Position start, double speed_mps, const Airframe& airframe, const Wind& wind)
+    : position_{start.x, start.y, 0.0 - start.z},
+      target_(position_),
+      speed_mps_(speed_mps),
+      acceleration_mps2_(airframe.acceleration_mps2),
+      braking_mps2_(braking_share * airframe.acceleration_mps2),
+      linear_m_(braking_mps2_ / (position_gain * position_gain)),
+      drag_per_s_(airframe.drag_kgps / mass_kg),
+      wind_(wind) {}
 
 double Quadcopter::tilt_rad() const {
     const auto [w, x, y, z] = attitude_;
@@ -70,6 +66,12 @@ void Quadcopter::step(GaussMarkov* position_error) {
     const std::array<double, 4> thrusts = motors(thrust(position_error));
     turn(thrusts);
     move(thrusts[0] + thrusts[1] + thrusts[2] + thrusts[3]);
+}
+
+double Quadcopter::approach_mps(double distance_m, double limit_mps) const {
+    const double speed = distance_m > linear_m_ ? std::sqrt(2 * braking_mps2_ * (distance_m - linear_m_ / 2))
+                                                : position_gain * distance_m;
+    return std::min(speed, limit_mps);
 }
 
 Quadcopter::Thrust Quadcopter::thrust(GaussMarkov* position_error) {
@@ -96,17 +98,17 @@ Quadcopter::Thrust Quadcopter::thrust(GaussMarkov* position_error) {
     double east = velocity_gain * (pace * way_east - velocity_.y);
     double down = velocity_gain * (sink - velocity_.z);
     double size = std::sqrt(north * north + east * east);
-    if (size > max_acceleration_mps2) {
-        north *= max_acceleration_mps2 / size;
-        east *= max_acceleration_mps2 / size;
+    if (size > acceleration_mps2_) {
+        north *= acceleration_mps2_ / size;
+        east *= acceleration_mps2_ / size;
     }
-    down = limited(down, max_acceleration_mps2);
+    down = limited(down, acceleration_mps2_);
 
     // Thrust against gravity, and against wind and drag.
     air_mps_ = wind_.velocity_mps(time_s);
-    drag_mps2_.x += filter * (drag_per_s * (air_mps_.x - velocity_.x) - drag_mps2_.x);
-    drag_mps2_.y += filter * (drag_per_s * (air_mps_.y - velocity_.y) - drag_mps2_.y);
-    drag_mps2_.z += filter * (drag_per_s * (air_mps_.z - velocity_.z) - drag_mps2_.z);
+    drag_mps2_.x += filter * (drag_per_s_ * (air_mps_.x - velocity_.x) - drag_mps2_.x);
+    drag_mps2_.y += filter * (drag_per_s_ * (air_mps_.y - velocity_.y) - drag_mps2_.y);
+    drag_mps2_.z += filter * (drag_per_s_ * (air_mps_.z - velocity_.z) - drag_mps2_.z);
     north -= drag_mps2_.x;
     east -= drag_mps2_.y;
     const double lift = std::max(gravity_mps2 + drag_mps2_.z - down, least_lift_mps2);
@@ -164,9 +166,9 @@ void Quadcopter::turn(const std::array<double, 4>& motors_n) {
 void Quadcopter::move(double thrust_n) {
     const auto [w, x, y, z] = attitude_;
     const double lift = -thrust_n / mass_kg;
-    const double a_north = 2 * (x * z + w * y) * lift - drag_per_s * (velocity_.x - air_mps_.x);
-    const double a_east = 2 * (y * z - w * x) * lift - drag_per_s * (velocity_.y - air_mps_.y);
-    const double a_down = (1 - 2 * (x * x + y * y)) * lift - drag_per_s * (velocity_.z - air_mps_.z);
+    const double a_north = 2 * (x * z + w * y) * lift - drag_per_s_ * (velocity_.x - air_mps_.x);
+    const double a_east = 2 * (y * z - w * x) * lift - drag_per_s_ * (velocity_.y - air_mps_.y);
+    const double a_down = (1 - 2 * (x * x + y * y)) * lift - drag_per_s_ * (velocity_.z - air_mps_.z);
     const double north = velocity_.x + a_north * step_s;
     const double east = velocity_.y + a_east * step_s;
     const double sink = velocity_.z + (a_down + gravity_mps2) * step_s;

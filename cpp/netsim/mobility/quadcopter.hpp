@@ -12,12 +12,18 @@
 
 namespace netsim {
 
+// Limit on its acceleration in m/s², and the force of the air in N per m/s of airspeed.
+struct Airframe {
+    double acceleration_mps2;
+    double drag_kgps;
+};
+
 class Quadcopter {
 public:
     static constexpr double step_s = 0.01;
 
     // It hovers at `start` until it gets a target.
-    Quadcopter(Position start, double speed_mps, const Wind& wind);
+    Quadcopter(Position start, double speed_mps, const Airframe& airframe, const Wind& wind);
 
     // From the next step on.
     void go_to(Position target) { target_ = {target.x, target.y, 0.0 - target.z}; }
@@ -37,6 +43,8 @@ private:
         double lift;
     };
     Thrust thrust(GaussMarkov* position_error);
+    // The speed at a distance from the target with which it stops there, within a limit.
+    double approach_mps(double distance_m, double limit_mps) const;
     // Thrusts of the motors: front right, rear left, front left, rear right; N.
     std::array<double, 4> motors(const Thrust& wanted) const;
     void turn(const std::array<double, 4>& motors_n);
@@ -51,6 +59,10 @@ private:
 
     Position target_;
     double speed_mps_;
+    double acceleration_mps2_;
+    double braking_mps2_;
+    double linear_m_;  // distance to the target within which the speed is proportional to it
+    double drag_per_s_;
     Wind wind_;
     Position air_mps_{};    // its velocity in this step
     Position drag_mps2_{};  // estimate

@@ -9,8 +9,8 @@ namespace netsim {
 
 class QuadcopterMobility final : public Mobility {
 public:
-    QuadcopterMobility(Position initial, double speed_mps, const Wind& wind)
-        : Mobility(initial), vehicle_(initial, speed_mps, wind) {}
+    QuadcopterMobility(Position initial, double speed_mps, const Airframe& airframe, const Wind& wind)
+        : Mobility(initial), vehicle_(initial, speed_mps, airframe, wind) {}
 
     void go_to(SimTime now, Position target) override;
     void set_speed(SimTime now, double speed_mps) override;

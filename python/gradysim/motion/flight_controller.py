@@ -10,6 +10,7 @@ Robotics and Automation Magazine 19, 2012.
 """
 
 import math
+from dataclasses import dataclass
 
 from gradysim.motion.gauss_markov import GaussMarkov
 from gradysim.motion.quadcopter import (
@@ -30,10 +31,10 @@ STEP_S = 0.01
 """Step of physics and controller. The fastest loop, that of the rates, needs 40 ms."""
 
 MAX_ACCELERATION_MPS2 = 2.5
-"""Limit on the horizontal acceleration, and on the vertical one."""
+"""Limit on the horizontal acceleration, and on the vertical one, by default."""
 
-BRAKING_MPS2 = 2.0
-"""Deceleration that is planned before a target. Below the limit, so that there is a reserve."""
+_BRAKING_SHARE = 0.8
+"""Share of this limit that is planned to brake before a target. The rest is a reserve."""
 
 CLIMB_MPS, DESCENT_MPS = 2.5, 1.5
 """Largest vertical speeds."""
@@ -53,17 +54,26 @@ _MAX_RATE_RADPS = 3.0
 _DRAG_TIME_S = 0.5
 """Time constant of the filter that estimates wind and drag."""
 
-_LINEAR_M = BRAKING_MPS2 / (_POSITION_GAIN * _POSITION_GAIN)
-"""Distance to the target from which on the speed is proportional to it."""
-
 _TAN_TILT = math.tan(MAX_TILT_RAD)
 _LEAST_LIFT_MPS2 = 0.3 * GRAVITY_MPS2
-_DRAG_PER_S = DRAG_KGPS / MASS_KG
 _FILTER = STEP_S / _DRAG_TIME_S
 _ROLL_N = INERTIA_KGM2[0] * _RATE_GAIN / (4 * LEVER_M)
 _PITCH_N = INERTIA_KGM2[1] * _RATE_GAIN / (4 * LEVER_M)
 _YAW_N = INERTIA_KGM2[2] * _RATE_GAIN / (4 * TORQUE_M)
 _MAX_YAW_N = 1.0
+
+
+@dataclass(frozen=True)
+class Airframe:
+    """What differs between vehicles.
+
+    Attributes:
+        acceleration_mps2: Limit on the horizontal acceleration, and on the vertical one.
+        drag_kgps: Force of the air in newtons per metre per second of airspeed.
+    """
+
+    acceleration_mps2: float = MAX_ACCELERATION_MPS2
+    drag_kgps: float = DRAG_KGPS
 
 
 class FlightController:
@@ -75,11 +85,20 @@ class FlightController:
     """
 
     def __init__(
-        self, start: Position, speed_mps: float, wind: WindAtVehicle, error: GaussMarkov | None = None
+        self,
+        start: Position,
+        speed_mps: float,
+        wind: WindAtVehicle,
+        error: GaussMarkov | None = None,
+        airframe: Airframe = Airframe(),
     ) -> None:
         """Hover at `start`. The controller knows the position with this error."""
         x, y, z = start
-        self._body = Quadcopter()
+        self._acceleration_mps2 = airframe.acceleration_mps2
+        self._braking_mps2 = _BRAKING_SHARE * airframe.acceleration_mps2
+        self._linear_m = self._braking_mps2 / (_POSITION_GAIN * _POSITION_GAIN)
+        self._drag_per_s = airframe.drag_kgps / MASS_KG
+        self._body = Quadcopter(drag_kgps=airframe.drag_kgps)
         self._body.position_m = (x, y, 0.0 - z)
         self._wind = wind
         self._error = error
@@ -113,31 +132,33 @@ class FlightController:
             target_down = -LEAST_HEIGHT_M
         way_down = target_down - down
         limit = self.speed_mps
-        pace = _approach_mps(distance, limit) / distance if distance > 0 else 0.0
+        pace = self._approach_mps(distance, limit) / distance if distance > 0 else 0.0
         if way_down < 0:
-            sink = -_approach_mps(-way_down, CLIMB_MPS if limit > CLIMB_MPS else limit)
+            sink = -self._approach_mps(-way_down, CLIMB_MPS if limit > CLIMB_MPS else limit)
         else:
-            sink = _approach_mps(way_down, DESCENT_MPS if limit > DESCENT_MPS else limit)
+            sink = self._approach_mps(way_down, DESCENT_MPS if limit > DESCENT_MPS else limit)
 
         # Acceleration that the velocity asks for.
         a_north = _VELOCITY_GAIN * (pace * way_north - v_north)
         a_east = _VELOCITY_GAIN * (pace * way_east - v_east)
         a_down = _VELOCITY_GAIN * (sink - v_down)
         size = math.sqrt(a_north * a_north + a_east * a_east)
-        if size > MAX_ACCELERATION_MPS2:
-            a_north *= MAX_ACCELERATION_MPS2 / size
-            a_east *= MAX_ACCELERATION_MPS2 / size
-        if a_down > MAX_ACCELERATION_MPS2:
-            a_down = MAX_ACCELERATION_MPS2
-        elif a_down < -MAX_ACCELERATION_MPS2:
-            a_down = -MAX_ACCELERATION_MPS2
+        largest = self._acceleration_mps2
+        if size > largest:
+            a_north *= largest / size
+            a_east *= largest / size
+        if a_down > largest:
+            a_down = largest
+        elif a_down < -largest:
+            a_down = -largest
 
         # Thrust, as an acceleration: against gravity, and against the wind that the accelerometer feels.
         wind = body.wind_mps = self._wind.velocity_mps(time_s)
         drag_north, drag_east, drag_down = self._drag_mps2
-        drag_north += _FILTER * (_DRAG_PER_S * (wind[0] - v_north) - drag_north)
-        drag_east += _FILTER * (_DRAG_PER_S * (wind[1] - v_east) - drag_east)
-        drag_down += _FILTER * (_DRAG_PER_S * (wind[2] - v_down) - drag_down)
+        drag_per_s = self._drag_per_s
+        drag_north += _FILTER * (drag_per_s * (wind[0] - v_north) - drag_north)
+        drag_east += _FILTER * (drag_per_s * (wind[1] - v_east) - drag_east)
+        drag_down += _FILTER * (drag_per_s * (wind[2] - v_down) - drag_down)
         self._drag_mps2 = (drag_north, drag_east, drag_down)
         a_north -= drag_north
         a_east -= drag_east
@@ -177,14 +198,13 @@ class FlightController:
         north, east, down = body.position_m
         self.position = (north, east, 0.0 - down)
 
-
-def _approach_mps(distance_m: float, limit_mps: float) -> float:
-    """Return the speed at a distance from the target with which it stops there by `BRAKING_MPS2`."""
-    if distance_m > _LINEAR_M:
-        speed = math.sqrt(2 * BRAKING_MPS2 * (distance_m - _LINEAR_M / 2))
-    else:
-        speed = _POSITION_GAIN * distance_m
-    return speed if speed < limit_mps else limit_mps
+    def _approach_mps(self, distance_m: float, limit_mps: float) -> float:
+        """Return the speed at a distance from the target with which it stops there, within a limit."""
+        if distance_m > self._linear_m:
+            speed = math.sqrt(2 * self._braking_mps2 * (distance_m - self._linear_m / 2))
+        else:
+            speed = _POSITION_GAIN * distance_m
+        return speed if speed < limit_mps else limit_mps
 
 
 def _limited(value: float, limit: float) -> float:

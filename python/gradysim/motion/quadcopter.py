@@ -28,7 +28,7 @@ TORQUE_M = 0.02
 """Torque of a propeller about its axis per newton of thrust; N m / N."""
 
 DRAG_KGPS = 0.3
-"""Drag force per metre per second of airspeed."""
+"""Drag force in newtons per metre per second of airspeed, by default."""
 
 ROTATION_DRAG_NMS = 0.05
 """Drag torque per radian per second."""
@@ -41,7 +41,6 @@ MAX_THRUST_N = MASS_KG * GRAVITY_MPS2 / (4 * HOVER_THRUST)
 
 LEVER_M = ARM_M * math.sqrt(0.5)
 _IX, _IY, _IZ = INERTIA_KGM2
-_DRAG_PER_S = DRAG_KGPS / MASS_KG
 
 
 class Quadcopter:
@@ -56,8 +55,9 @@ class Quadcopter:
         specific_force_mps2: Reading of its accelerometer, along its own axes. At rest (0, 0, -g).
     """
 
-    def __init__(self, wind_mps: Vector = (0.0, 0.0, 0.0)) -> None:
+    def __init__(self, wind_mps: Vector = (0.0, 0.0, 0.0), drag_kgps: float = DRAG_KGPS) -> None:
         """Create a vehicle. `wind_mps` is the velocity of the air: North, East and down."""
+        self._drag_per_s = drag_kgps / MASS_KG
         self.wind_mps = wind_mps
         self.position_m: Vector = (0.0, 0.0, 0.0)
         self.velocity_mps: Vector = (0.0, 0.0, 0.0)
@@ -117,9 +117,10 @@ class Quadcopter:
         north, east, sink = self.velocity_mps
         wind_north, wind_east, wind_down = self.wind_mps
         lift = -(front_right + rear_left + front_left + rear_right) / MASS_KG
-        a_north = 2 * (x * z + w * y) * lift - _DRAG_PER_S * (north - wind_north)
-        a_east = 2 * (y * z - w * x) * lift - _DRAG_PER_S * (east - wind_east)
-        a_down = (1 - 2 * (x * x + y * y)) * lift - _DRAG_PER_S * (sink - wind_down)
+        drag_per_s = self._drag_per_s
+        a_north = 2 * (x * z + w * y) * lift - drag_per_s * (north - wind_north)
+        a_east = 2 * (y * z - w * x) * lift - drag_per_s * (east - wind_east)
+        a_down = (1 - 2 * (x * x + y * y)) * lift - drag_per_s * (sink - wind_down)
         north += a_north * duration_s
         east += a_east * duration_s
         sink += (a_down + GRAVITY_MPS2) * duration_s

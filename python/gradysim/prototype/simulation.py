@@ -1,10 +1,12 @@
 """A scenario as a simulation of the plain simulator in Python."""
 
+import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any
 
 from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
+from gradysim.motion.flight_controller import Airframe
 from gradysim.motion.wind import Wind
 from gradysim.protocol.defaults import LEAST_TELEMETRY_INTERVAL_S, UPDATE_S
 from gradysim.protocol.interface import IProvider
@@ -117,7 +119,7 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     """
     configuration = MasslessMobilityConfiguration(reference_coordinates=scenario.reference_coordinates)
     flights = flights_of(scenario)
-    quadcopters = [spec.id for spec in scenario.nodes if spec.is_quadcopter]
+    quadcopters = {spec.id: airframe_of(spec) for spec in scenario.nodes if spec.is_quadcopter}
     wind = Wind(**scenario.wind)
     mobility: MasslessMobilityHandler
     if flights is not None:  # autopilots and quadcopters fly in steps of 10 ms, in both modes
@@ -130,6 +132,12 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     for spec in scenario.nodes:
         configure_mobility(mobility, spec)
     return mobility
+
+
+def airframe_of(spec: NodeSpec) -> Airframe:
+    """Return the vehicle of a node. Its reader has checked the values."""
+    given = {field.name: spec.mobility.get(field.name) for field in dataclasses.fields(Airframe)}
+    return Airframe(**{name: float(setting.value) for name, setting in given.items() if setting is not None})
 
 
 def update_rate_s(nodes: Iterable[NodeSpec]) -> float:
@@ -171,6 +179,7 @@ def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> Non
         ("telemetry_interval", "telemetry_interval_s"),
         ("position_error", "position_error_m"),
         ("position_error_time", "position_error_time_s"),
+        ("position_error_ratio", "position_error_ratio"),
     ):
         if (setting := spec.mobility.get(field)) is not None:
             numbers[argument] = float(setting.value)

@@ -1,10 +1,12 @@
 """Mobility handler for massless vehicles, quadcopters, and vehicles flown by autopilots."""
 
 import weakref
-from collections.abc import Collection
+from collections.abc import Mapping
 from functools import partial
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
+from gradysim.motion.flight_controller import Airframe
 from gradysim.motion.wind import Wind
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.position import Position
@@ -27,7 +29,7 @@ class AutopilotMobilityHandler(QuadcopterMobilityHandler):
         self,
         configuration: MasslessMobilityConfiguration,
         flights: "Flights",
-        quadcopters: Collection[int] = (),
+        quadcopters: Mapping[int, Airframe] = MappingProxyType({}),
         wind: Wind | None = None,
     ) -> None:
         """Create the handler. `flights` start with `take_off` and end with the simulation."""

@@ -5,7 +5,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from gradysim.motion.quadcopter import Vector
+from gradysim.motion.quadcopter import DRAG_KGPS, Vector
 from gradysim.motion.wind import WindAtVehicle
 from gradysim.protocol.defaults import AUTOPILOT_USER, SPEED_MPS
 from gradysim.protocol.position import Position
@@ -36,6 +36,7 @@ class AutopilotNode:
         user: User of the autopilot if root starts it; None for root.
         parameters: ArduCopter parameters by name. SIM_WIND_SPD (m/s) and SIM_WIND_DIR (deg, direction it
             comes from) set the wind.
+        drag_kgps: Force of the air on the vehicle, in newtons per metre per second of airspeed.
         wind: Wind of the scenario; None if these parameters set it.
     """
 
@@ -46,6 +47,7 @@ class AutopilotNode:
     program: str | os.PathLike[str] | None = None
     user: str | None = AUTOPILOT_USER
     parameters: Mapping[str, float] = field(default_factory=dict)
+    drag_kgps: float = DRAG_KGPS
     wind: WindAtVehicle | None = None
 
 

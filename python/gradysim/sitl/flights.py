@@ -45,7 +45,7 @@ class LockStepFlight:
         self._on_text = on_text
         self._link = MavlinkLink(node.name)
         self._link.on_message = self._note
-        body = Quadcopter(wind_mps(node.name, node.parameters))
+        body = Quadcopter(wind_mps(node.name, node.parameters), node.drag_kgps)
         self.autopilot = LockStepAutopilot(self._link, body, node.wind)
         self.vehicle = Vehicle(self._link)
         self.pilot = Pilot(self.vehicle, self._place_of, node.start, node.speed_mps)

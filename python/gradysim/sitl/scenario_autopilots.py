@@ -46,6 +46,7 @@ def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = 
 
 
 def _node_of(spec: NodeSpec, autopilot: AutopilotSpec, scenario: Scenario) -> "AutopilotNode":
+    from gradysim.motion.quadcopter import DRAG_KGPS
     from gradysim.sitl.autopilot_node import AutopilotNode, sets_wind
 
     is_windy = scenario.wind and not sets_wind(autopilot.parameters)
@@ -57,6 +58,7 @@ def _node_of(spec: NodeSpec, autopilot: AutopilotSpec, scenario: Scenario) -> "A
         program=autopilot.program,
         user=autopilot.user,
         parameters=autopilot.parameters,
+        drag_kgps=float(drag.value) if (drag := spec.mobility.get("drag_kgps")) is not None else DRAG_KGPS,
         wind=WindAtVehicle(Wind(**scenario.wind), scenario.seed, spec.id) if is_windy else None,
     )
 

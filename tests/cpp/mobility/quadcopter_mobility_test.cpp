@@ -15,7 +15,7 @@ SimTime s(double seconds) {
 }
 
 QuadcopterMobility hovering() {
-    return {{0, 0, 20}, 10, Wind({}, 1, 0)};
+    return {{0, 0, 20}, 10, {.acceleration_mps2 = 2.5, .drag_kgps = 0.3}, Wind({}, 1, 0)};
 }
 
 TEST(QuadcopterMobility, EachFlightIsAStraightLeg) {

@@ -12,9 +12,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr Position start{0, 0, 20};
+constexpr Airframe usual{.acceleration_mps2 = 2.5, .drag_kgps = 0.3};
 
 Quadcopter vehicle(double speed_mps = 10, const WindConfig& wind = {}, Position from = start) {
-    return {from, speed_mps, Wind(wind, 1, 0)};
+    return {from, speed_mps, usual, Wind(wind, 1, 0)};
 }
 
 // Its positions after each step.
@@ -77,6 +78,26 @@ TEST(Quadcopter, BrakesWhereItIsStopped) {
     flying.set_speed(0);
     const double stopped_m = flown(flying, 10).back().x;
     EXPECT_NEAR(stopped_m - brakes_at_m, 23, 3);  // v²/2a is 20 m
+}
+
+TEST(Quadcopter, SpeedsUpAndBrakesWithItsAcceleration) {
+    Quadcopter flying(start, 10, {.acceleration_mps2 = 0.9, .drag_kgps = 0.3}, Wind({}, 1, 0));
+    flying.go_to({200, 0, 20});
+    const auto positions = flown(flying, 40);
+    EXPECT_GT(positions[499].x, 9);  // 5 s: half of 0.9 m/s² times its square, less the time to tilt
+    EXPECT_LT(positions[499].x, 11.25);
+    EXPECT_LT(std::ranges::max_element(positions, {}, &Position::x)->x, 200.1);
+    EXPECT_LT(distance(positions.back(), {200, 0, 20}), 0.05);
+}
+
+// At a constant speed, drag is the horizontal part of the thrust: tan α = drag · v / (m g).
+TEST(Quadcopter, TiltsAgainstItsDrag) {
+    for (const double drag_kgps : {0.3, 0.8}) {
+        Quadcopter hovering(start, 10, {.acceleration_mps2 = 2.5, .drag_kgps = drag_kgps},
+                            Wind({.speed_mps = 8}, 1, 0));
+        flown(hovering, 30);
+        EXPECT_NEAR(std::tan(hovering.tilt_rad()), drag_kgps * 8 / (2 * 9.80665), 1e-3);
+    }
 }
 
 TEST(Quadcopter, HoldsItsPlaceInWind) {

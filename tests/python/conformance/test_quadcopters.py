@@ -35,6 +35,11 @@ class Tested(Quiet):
 QUADCOPTER = ['*.uavs[*].mobility.typename = "QuadcopterMobility"', "*.uavs[*].mobility.initialZ = 20m"]
 WIND = ["*.wind.speed = 6mps", "*.wind.heading = 30deg", "*.wind.gusts = 2mps"]
 ERROR = ["*.uavs[*].mobility.positionError = 1.5m"]
+AIRFRAME = [
+    "*.uavs[0].mobility.acceleration = 0.9",
+    "*.uavs[0].mobility.drag = 0.8",
+    "*.uavs[*].mobility.positionErrorRatio = 1.2",
+]
 LINES = ["sim-time-limit = 25s", "*.uavs[*].mobility.telemetryInterval = 0.1s", *QUADCOPTER]
 
 
@@ -42,7 +47,7 @@ def tracks(result: Any, name: str) -> list[Any]:
     return [node.tracked_variables[name] for node in result.nodes]
 
 
-@pytest.mark.parametrize("effects", [(), WIND, ERROR, (*WIND, *ERROR)])
+@pytest.mark.parametrize("effects", [(), WIND, ERROR, (*WIND, *ERROR), (*WIND, *ERROR, *AIRFRAME)])
 def test_both_modes_fly_the_same_path(make_scenario: Any, effects: list[str]) -> None:
     scenario = make_scenario(TRIP, *LINES, *effects)
     integrated, prototype = (MODES[mode](scenario) for mode in ("integrated", "prototype"))

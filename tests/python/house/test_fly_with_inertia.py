@@ -1,11 +1,15 @@
 """What docs/how-to/fly-with-inertia.md shows is what happens."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from gradysim.cli.app import main
+from gradysim.motion.flight_controller import STEP_S, Airframe, FlightController
+from gradysim.motion.wind import Wind, WindAtVehicle
+from gradysim.prototype.simulation import airframe_of
 from gradysim.scenario.load import load_scenarios
 
 pytest.importorskip("gradysim._netsim")
@@ -40,3 +44,40 @@ def test_prototype_mode_prints_the_same(
 def test_its_second_configuration_gives_each_node_an_error(page: Path) -> None:
     (scenario,) = load_scenarios(page / "square.ini", "Errors")
     assert [node.mobility["position_error_m"].value for node in scenario.nodes] == [1.5, 1.5]
+
+
+def test_its_measured_vehicle_takes_as_long(root: Path, tmp_path: Path) -> None:
+    (tmp_path / "copter.ini").write_text(COPTER)
+    (scenario,) = load_scenarios(tmp_path / "copter.ini")
+    measured = airframe_of(scenario.nodes[0])
+    speed_mps = float(scenario.nodes[0].mobility["speed_mps"].value)
+    rows = re.findall(
+        r"^\| ([\d.]+) m \| ([\d.]+) s \| ([\d.]+) s \| ([\d.]+) s \|",
+        (root / "docs/how-to/fly-with-inertia.md").read_text(encoding="utf-8"),
+        re.MULTILINE,
+    )
+    assert len(rows) == 3
+    for leg_m, in_the_field, here, by_default in (map(float, row) for row in rows):
+        assert duration_s(leg_m, speed_mps, measured) == pytest.approx(here, abs=0.006)
+        assert duration_s(leg_m, 5.0, Airframe()) == pytest.approx(by_default, abs=0.006)
+        assert here == pytest.approx(in_the_field, rel=0.03)
+
+
+COPTER = """
+[General]
+sim-time-limit = 1s
+*.numN = 1
+*.n[*].protocol.typename = "SinkProtocol"
+include as_measured_copter.ini
+"""
+
+
+def duration_s(leg_m: float, speed_mps: float, airframe: Airframe) -> float:
+    """Return the time until a vehicle is within 2 m of its target."""
+    vehicle = FlightController((0.0, 0.0, 10.0), speed_mps, WindAtVehicle(Wind(), 1, 0), airframe=airframe)
+    vehicle.go_to((leg_m, 0.0, 10.0))
+    steps = 0
+    while leg_m - vehicle.position[0] > 2:
+        vehicle.step()
+        steps += 1
+    return steps * STEP_S

@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from gradysim.encapsulator.validation import geo_target, three_numbers, wrong_mobility
 from gradysim.motion.gauss_markov import GaussMarkov
-from gradysim.motion.position_error import POSITION_ERROR_TIME_S, position_error
+from gradysim.motion.position_error import POSITION_ERROR_RATIO, POSITION_ERROR_TIME_S, position_error
 from gradysim.protocol.checked_values import checked_number
 from gradysim.protocol.defaults import SPEED_MPS, UPDATE_S
 from gradysim.protocol.errors import MasslessMobilityException as MasslessMobilityException
@@ -52,6 +52,7 @@ class _NodeSettings:
     refuses_commands: bool = False
     position_error_m: float = 0.0
     position_error_time_s: float = POSITION_ERROR_TIME_S
+    position_error_ratio: float = POSITION_ERROR_RATIO
 
 
 class MasslessMobilityHandler(INodeHandler):
@@ -94,6 +95,7 @@ class MasslessMobilityHandler(INodeHandler):
         path: Callable[[float], Position] | None = None,
         position_error: float = 0.0,
         position_error_time: float = POSITION_ERROR_TIME_S,
+        position_error_ratio: float = POSITION_ERROR_RATIO,
     ) -> None:
         """Set how one node moves, before it is registered. It holds in every simulation of this handler.
 
@@ -106,8 +108,9 @@ class MasslessMobilityHandler(INodeHandler):
             path: The position (x, y, z) in meters by the simulated time in seconds. It holds at each update,
                 and the node refuses every command.
             position_error: Standard deviation of the error of reported positions; m on each horizontal axis,
-                >= 0. That of z is 1.5 times as large.
+                >= 0.
             position_error_time: Time in which this error changes, its correlation time; s, > 0.
+            position_error_ratio: Standard deviation of the error of z over that of a horizontal axis, >= 0.
 
         Raises:
             ValueError: A number is outside its range.
@@ -119,6 +122,7 @@ class MasslessMobilityHandler(INodeHandler):
             checked_number(f"speed of node {node_id}", speed, 0, unit="m/s")
         checked_number(f"position_error of node {node_id}", position_error, 0, unit="m")
         checked_number(f"position_error_time of node {node_id}", position_error_time, 0, above=True, unit="s")
+        checked_number(f"position_error_ratio of node {node_id}", position_error_ratio, 0)
         rate = self._configuration.update_rate
         if telemetry_interval is not None and telemetry_interval != 0:
             checked_number(f"telemetry_interval of node {node_id}", telemetry_interval, 0, unit="s")
@@ -128,7 +132,12 @@ class MasslessMobilityHandler(INodeHandler):
                     f"least the update_rate of the positions, {rate!r} s"
                 )
         self._settings[node_id] = _NodeSettings(
-            speed, telemetry_interval, stationary or path is not None, position_error, position_error_time
+            speed,
+            telemetry_interval,
+            stationary or path is not None,
+            position_error,
+            position_error_time,
+            position_error_ratio,
         )
         if path is not None:
             self.paths[node_id] = path
@@ -158,7 +167,11 @@ class MasslessMobilityHandler(INodeHandler):
         )
         if settings.position_error_m > 0:
             self.position_errors[node.id] = position_error(
-                node.seed, node.id, settings.position_error_m, settings.position_error_time_s
+                node.seed,
+                node.id,
+                settings.position_error_m,
+                settings.position_error_time_s,
+                settings.position_error_ratio,
             )
         interval_s = settings.telemetry_interval_s
         if interval_s is None:

@@ -1,11 +1,12 @@
 """Mobility handler for massless vehicles and quadcopters, which have inertia."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Mapping
 from functools import partial
+from types import MappingProxyType
 from typing import Any
 
-from gradysim.motion.flight_controller import STEP_S, FlightController
+from gradysim.motion.flight_controller import STEP_S, Airframe, FlightController
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.position import Position
@@ -27,15 +28,15 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
     def __init__(
         self,
         configuration: MasslessMobilityConfiguration | None = None,
-        quadcopters: Collection[int] = (),
+        quadcopters: Mapping[int, Airframe] = MappingProxyType({}),
         wind: Wind | None = None,
     ) -> None:
-        """Create the handler. `quadcopters` are the ids of nodes, and `wind` blows on them.
+        """Create the handler. `quadcopters` are the vehicles by the ids of nodes, and `wind` blows on them.
 
         Raise ValueError if there are quadcopters, and the update_rate is not a multiple of 10 ms.
         """
         super().__init__(configuration)
-        self._quadcopters = frozenset(quadcopters)
+        self._quadcopters = dict(quadcopters)
         self._wind = wind or Wind()
         self._flown: dict[int, FlightController] = {}
         rate_s = self._configuration.update_rate
@@ -61,6 +62,7 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
                 self.speeds[node.id],
                 WindAtVehicle(self._wind, node.seed, node.id),
                 self.position_errors.get(node.id),
+                self._quadcopters[node.id],
             )
 
     def initialize(self) -> None:

@@ -4,6 +4,7 @@ import math
 
 import pytest
 
+from gradysim.motion.flight_controller import Airframe
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand, SetSpeedMobilityCommand
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MobilityException
 from gradysim.simulator.handler.mobility.quadcopter import QuadcopterMobilityHandler
@@ -28,7 +29,7 @@ class Tested(Quiet):
 
 
 def simulator(protocol=Tested, duration=15.0, **configured):
-    handler = QuadcopterMobilityHandler(None, quadcopters=[0])
+    handler = QuadcopterMobilityHandler(None, quadcopters={0: Airframe()})
     handler.configure_node(0, **configured)
     builder = SimulationBuilder(SimulationConfiguration(duration=duration, execution_logging=False, seed=1))
     builder.add_handler(TimerHandler()).add_handler(handler)
@@ -91,4 +92,4 @@ def test_a_command_that_means_nothing_is_refused():
 
 def test_updates_that_are_no_multiple_of_a_step_are_refused():
     with pytest.raises(ValueError, match=r"update_rate is 0\.025 s"):
-        QuadcopterMobilityHandler(MasslessMobilityConfiguration(update_rate=0.025), [0])
+        QuadcopterMobilityHandler(MasslessMobilityConfiguration(update_rate=0.025), {0: Airframe()})

@@ -1,0 +1,75 @@
+"""docs/how-to/model-my-radio.md: its lines run, and its ranges and levels are the engine's."""
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("gradysim._netsim")
+
+from gradysim.integrated.calibration import calibrate
+from gradysim.integrated.network_lint import lint_networks
+from gradysim.integrated.ranges import ranges_m
+from gradysim.scenario import Scenario, load_scenarios
+from gradysim.scenario.ini import PROFILES
+
+PAGE = "docs/how-to/model-my-radio.md"
+NODES = '\nsim-time-limit = 1s\n*.numN = 2\n*.n[*].protocol.typename = "SinkProtocol"\n'
+THERMAL_NOISE_DBM = 10 * math.log10(1.380649e-23 * 290 * 20e6 / 1e-3)
+
+
+@pytest.fixture
+def page(root: Path) -> str:
+    return (root / PAGE).read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def loaded(tmp_path: Path) -> Callable[[str, str], Scenario]:
+    """`loaded(lines, bitrate)`: two nodes with lines of the page."""
+
+    def load(lines: str, bitrate_mbps: str) -> Scenario:
+        (tmp_path / "page.ini").write_text(f"[General]{NODES}{lines}")
+        bitrate = f"**.wlan[*].bitrate = {bitrate_mbps}Mbps"
+        (scenario,) = load_scenarios(tmp_path / "page.ini", overrides=[bitrate])
+        return scenario
+
+    return load
+
+
+def test_its_ranges(
+    page: str, code_blocks: Callable[[str, str], list[str]], loaded: Callable[[str, str], Scenario]
+) -> None:
+    lines = code_blocks(PAGE, "ini")[0].replace("[General]\n", "")
+    rows = re.findall(r"^\| (\d+) Mbps \| (\d+) m \| (\d+) m \|", page, re.MULTILINE)
+    assert len(rows) == 4
+    for bitrate, by_default, measured in rows:
+        assert round(ranges_m(loaded(lines, bitrate))[0] or 0) == int(measured)
+        without = lines.replace("include", "# include")
+        assert round(ranges_m(loaded(without, bitrate))[0] or 0) == int(by_default)
+
+
+def test_its_levels_above_the_noise(
+    page: str, code_blocks: Callable[[str, str], list[str]], loaded: Callable[[str, str], Scenario]
+) -> None:
+    bitrates, levels = (
+        re.findall(r"[\d.]+", line) for line in page.splitlines() if re.match(r"\| (bitrate, M|dB)", line)
+    )
+    for bitrate, level in zip(bitrates, levels, strict=True):
+        scenario = loaded(code_blocks(PAGE, "ini")[1], bitrate)
+        snr = calibrate(scenario, 10, ratio=0.9, message_bytes=1000).snr_at_range
+        assert 10 * math.log10(snr) == pytest.approx(float(level), abs=0.06)
+
+
+def test_its_noise_figure(page: str) -> None:
+    assert round(THERMAL_NOISE_DBM) == -101
+    assert "-85 + 101 - 13.4 = 2.6 dB" in page
+
+
+def test_each_measured_profile_is_told_and_read(page: str, root: Path, tmp_path: Path) -> None:
+    for profile in sorted(PROFILES.glob("as_measured_*.ini")):
+        assert f"| `{profile.name}` |" in page
+        (tmp_path / "with.ini").write_text(f"[General]{NODES}include {profile.name}\n")
+        (scenario,) = load_scenarios(tmp_path / "with.ini")
+        assert lint_networks([scenario]) == []
