@@ -49,7 +49,10 @@ def _check_others(study: "Study", others: Sequence[int], options: RunOptions) ->
     numbers = [study.numbers[place] for place in others]
     which = f"{len(numbers)} of {len(study)} runs ({text_of_runs(numbers)})"
     if not options.replace:
-        hint = "; another `repeat` or list of values has changed the numbers of runs"
+        hint = (
+            "; another `repeat` or list of values has changed the numbers of runs; to let `repeat` grow,"
+            " begin a study with `iteration-nesting-order = repetition, *`"
+        )
         is_renumbered = has_another_number(study[others[0]], options.mode, options.directory)
         raise ConfigError(
             f"--result-dir {options.directory}: it has results with other settings or seeds for {which}",

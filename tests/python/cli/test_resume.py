@@ -122,7 +122,7 @@ def test_another_repeat_changes_the_numbers_of_runs(grown):
     done = grown("*, repetition")
     assert (done.returncode, done.stdout) == (2, "")
     assert "60 of 84 runs (20..79)" in done.stderr
-    assert done.stderr.endswith("; another `repeat` or list of values has changed the numbers of runs\n")
+    assert "; another `repeat` or list of values has changed the numbers of runs; to let" in done.stderr
 
 
 def test_all_runs_stay_if_repetitions_are_the_outermost(grown):
