@@ -169,10 +169,8 @@ hashes: $(STAMPS)/hashes  ## Rewrite packaging/requirements.txt: what builds the
 	UV_CUSTOM_COMPILE_COMMAND='make hashes' uv pip compile --quiet --universal --python-version=3.11 --generate-hashes \
 	  --group=dist --output-file=packaging/requirements.txt
 
-release: | $(VENV)/bin/python  ## Run all checks and tests, build the wheels and tag a release: VERSION=1.0.0, or 1.0.0rc1.
+release: | $(VENV)/bin/python  ## Check the clone, build and test the wheels, and tag a release: VERSION=1.0.0, or 1.0.0rc1.
 	$(BIN)/python packaging/release.py check "$(VERSION)"
-	$(MAKE) --no-print-directory lint test test-slow
-	$(BIN)/python -m pytest tests/verification --numprocesses=$(WORKERS) --dist=loadfile
 	VCS_VERSIONING_PRETEND_VERSION_FOR_GRADYSIM=$(VERSION) $(MAKE) --no-print-directory wheels
 	$(BIN)/python packaging/release.py tag "$(VERSION)"
 

@@ -1,7 +1,8 @@
 """Check that the main branch can be released, and tag it: `make release VERSION=1.0.0`.
 
-Two commands, since make runs the tests and builds the wheels between them: `release.py check 1.0.0` and
-`release.py tag 1.0.0`. A pre-release, such as 1.0.0rc1, has the notes that the release has so far.
+Two commands, since make builds and tests the wheels between them: `release.py check 1.0.0` and
+`release.py tag 1.0.0`. The other tests run in CI, on the commit of the tag, before anything is published. A
+pre-release, such as 1.0.0rc1, has the notes that the release has so far.
 """
 
 import datetime
