@@ -27,15 +27,16 @@ def check_block(
     part: bool = False,
     changing: bool = False,
     terminal: bool = False,
+    language: str = "text",
     rewrite: bool = REWRITE,
 ) -> None:
-    """Compare the `text` block of the page with this number with the printed lines.
+    """Compare the block of the page with this number with the printed lines.
 
     Blanks at the ends of lines do not count. A block with `part` shows lines in a row. With `changing`,
     processor times and hashes may differ. With `terminal`, long lines go on in the next one.
     """
     text = page.read_text(encoding="utf-8")
-    block = list(re.finditer(r"^```text\n(.*?)^```", text, re.MULTILINE | re.DOTALL))[number]
+    block = list(re.finditer(rf"^```{language}\n(.*?)^```", text, re.MULTILINE | re.DOTALL))[number]
     shown, lines = lines_of(block[1]), lines_of(printed)
     if terminal:
         lines = [

@@ -159,7 +159,7 @@ def shows(root: Path) -> Callable[..., None]:
     broken. `make pages` rewrites blocks that differ.
     """
 
-    def check(page: str, printed: str, number: int = 0, **how: bool) -> None:
+    def check(page: str, printed: str, number: int = 0, **how: Any) -> None:
         check_block(root / page, printed, number, **how)
 
     return check

@@ -81,3 +81,26 @@ def duration_s(leg_m: float, speed_mps: float, airframe: Airframe) -> float:
         vehicle.step()
         steps += 1
     return steps * STEP_S
+
+
+def flown_m(start_m: float, target_m: float, vehicle: FlightController) -> list[float]:
+    """Fly to a target on the x axis for 20 s. Return the distance from the start after each step."""
+    vehicle.go_to((target_m, 0.0, 20.0))
+    path = []
+    for _ in range(round(20 / STEP_S)):
+        vehicle.step()
+        path.append(vehicle.position[0] - start_m)
+    return path
+
+
+def test_a_vehicle_brakes_as_it_says(root: Path) -> None:
+    page = " ".join((root / GUIDE).read_text(encoding="utf-8").split())
+    vehicle = FlightController((0.0, 0.0, 20.0), 10.0, WindAtVehicle(Wind(), 1, 0), airframe=Airframe())
+    path = flown_m(0, 100, vehicle)
+    arrived_s = next(step for step, flown in enumerate(path, 1) if flown > 99.8) * STEP_S
+    assert f"it takes {arrived_s:.1f} s for 100 m" in page
+    assert f"It overshoots the target by {100 * (max(path) - 100):.0f} cm" in page
+    flown_m(100, 1000, vehicle)
+    here_m = vehicle.position[0]
+    (told_m,) = re.findall(r"it stops within (\d+) m", page)
+    assert int(told_m) - 1 < max(flown_m(here_m, here_m, vehicle)) <= int(told_m)
