@@ -131,6 +131,14 @@ TUTORIAL_SHOTS = (
         (1100, 680),
         2,
     ),
+    TutorialShot(
+        "sequence",
+        "7-what-was-lost",
+        "-c Study -r 20",
+        None,
+        "#frame=114&filter=outcome:interference&sequence=1",
+        (1100, 760),
+    ),
 )
 TUTORIAL_BLOCK = re.compile(
     r"(?:(at the end of )?`(\w+\.\w+)`:\n\n(?:\{[^\n]*\}\n)?)?^```(\w+)\n(.*?)^```", re.MULTILINE | re.DOTALL

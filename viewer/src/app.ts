@@ -57,7 +57,12 @@ export class App implements Actions {
     this.address = new Address(this.replay);
     this.dialogs = { run: runDialog(this.replay), keys: keysDialog() };
     this.controls = new Controls(this.clock, this.store, this);
-    this.inspector = new Inspector(this.replay, this.store, (timeNs) => this.seek(timeNs));
+    this.inspector = new Inspector(
+      this.replay,
+      this.store,
+      (timeNs) => this.seek(timeNs),
+      (node) => this.pin(node),
+    );
     this.chosen = new FrameDetails(this.replay, () => this.store.set({ frame: null }));
     this.list = new FrameList(this.replay, this.store, (frame) => void this.chooseFrame(frame));
     this.timeline = new Timeline(

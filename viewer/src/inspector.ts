@@ -1,12 +1,12 @@
 // What is known of the chosen node, or of all nodes, at the time of the clock.
 
-import { Charts } from "./charts";
 import { outcomeColor, outcomeDash, outcomeWords } from "./colors";
 import { countText, distanceText, make, timeText } from "./dom";
 import { Replay } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";
-import { countUntil, History, noHistory, readOn } from "./variables";
+import { Tracked } from "./tracked";
+import { countUntil } from "./variables";
 
 const MOST_NEIGHBORS = 12;
 const MOST_EVENTS = 12;
@@ -18,22 +18,20 @@ export class Inspector {
   private readonly outcomesTitle = make("h3", { class: "of-frames" });
   private readonly outcomes = make("div", { class: "outcomes of-frames" });
   private readonly outcomesNote = make("p", { class: "message of-frames" });
-  private readonly charts: Charts;
+  private readonly tracked: Tracked;
   private readonly ofNode = make("div", {});
-  private readonly chartsNote = make("p", { class: "message" });
   private readonly neighbors = make("div", { class: "list" });
   private readonly neighborsTitle = make("h3", {});
   private readonly events = make("div", { class: "list of-frames" });
   private readonly eventsTitle = make("h3", { class: "of-frames" }, "Events");
-  private history: History | null = null;
-  private isReading = false;
 
   constructor(
     private readonly replay: Replay,
     private readonly store: Store,
     seek: (timeNs: number) => void,
+    pin: (node?: number) => void,
   ) {
-    this.charts = new Charts(seek);
+    this.tracked = new Tracked(replay, store, seek, pin);
     this.choice.append(make("option", { value: "" }, "All nodes"));
     for (const node of replay.run.nodes)
       this.choice.append(make("option", { value: String(node.id) }, node.name));
@@ -47,30 +45,31 @@ export class Inspector {
         if (time) seek(Number(time));
       });
     this.ofNode.append(
-      make("h3", {}, "Tracked variables"),
-      this.chartsNote,
-      this.charts.element,
       this.neighborsTitle,
       this.neighbors,
       this.eventsTitle,
       this.events,
     );
     this.element.append(
-      make("div", { class: "row" }, make("h2", {}, "Node"), this.choice),
+      make("div", { class: "row" }, make("h2", {}, "Node"), this.choice, this.tracked.pin),
       this.facts,
       this.outcomesTitle,
       this.outcomes,
       this.outcomesNote,
+      this.tracked.element,
       this.ofNode,
     );
     store.onChange((changed) => {
-      if ("node" in changed) void this.choose();
+      if (!("node" in changed)) return;
+      this.choice.value = String(changed.node ?? "");
+      this.ofNode.hidden = changed.node == null;
     });
   }
 
   update(timeNs: number, positions: Float64Array): void {
     const { node } = this.store.now;
     this.showOutcomes(timeNs, node);
+    this.tracked.update(timeNs);
     if (node === null) {
       const more = this.replay.hasFrames ? ", neighbors and events" : " and neighbors";
       setText(this.facts, `Click a node, or choose one here, to see its variables${more}.`);
@@ -83,32 +82,7 @@ export class Inspector {
     const names = [...new Set([group, protocol])].join(" · ");
     setText(this.facts, `id ${id} · ${names}${range} · at (${place}) m`);
     this.showNeighbors(node, positions);
-    void this.readHistory();
-    this.charts.moveTo(timeNs / 1e9);
     this.showEvents(timeNs);
-  }
-
-  private async choose(): Promise<void> {
-    const { node } = this.store.now;
-    this.choice.value = node === null ? "" : String(node);
-    this.ofNode.hidden = node === null;
-    this.charts.clear();
-    this.history = node === null ? null : noHistory(node);
-    await this.readHistory();
-  }
-
-  /** Read what is not read yet: all, or what came of a run that goes on. */
-  private async readHistory(): Promise<void> {
-    const { history } = this;
-    if (history === null || this.isReading || history.chunks === this.replay.chunks.length) return;
-    this.isReading = true;
-    setText(this.chartsNote, history.chunks ? "" : "Reading …");
-    await readOn(this.replay, history, () => this.history === history);
-    this.isReading = false;
-    if (this.history !== history) return this.readHistory();
-    setText(this.chartsNote, history.series.size ? "" : "This node has none.");
-    this.charts.show(history.series.values(), this.replay.endNs / 1e9);
-    this.store.set({});
   }
 
   private showOutcomes(timeNs: number, node: number | null): void {
@@ -170,7 +144,7 @@ export class Inspector {
   }
 
   private showEvents(timeNs: number): void {
-    const events = this.history?.events ?? [];
+    const events = this.tracked.history?.events ?? [];
     const until = countUntil(
       events.map((event) => event.timeNs),
       timeNs,
