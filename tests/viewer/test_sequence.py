@@ -120,6 +120,11 @@ def test_the_wheel_zooms_and_dragging_pans(zigzag, browser):
     assert moved["address"].endswith("&frame=0")  # a drag is not a click
 
 
+def test_a_link_to_a_frame_shows_it_at_once(zigzag, browser):
+    said = browser(zigzag, address="#frame=1&sequence=1", values={"chosen": CHOSEN})
+    assert said["values"]["chosen"]["width"] == pytest.approx(100, abs=3)
+
+
 def test_pinned_nodes_have_lanes(zigzag, browser):
     said = browser(zigzag, address="#t=30&sequence=1&pins=sensors[4],uavs[0]", values={"names": NAMES})
     assert said["values"]["names"] == ["uavs[0]", "sensors[4]"]

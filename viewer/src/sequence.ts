@@ -42,13 +42,13 @@ export interface Act {
 }
 
 export class Sequence {
-  readonly element = make("section", { class: "sequence", "aria-label": "Sequence chart" });
+  readonly element = make("section", { class: "sequence", "aria-label": "Sequence chart", hidden: "" });
   private readonly picture = svg("svg", { role: "img" });
   private readonly plot = svg("svg", { y: 0 });
   private readonly now = svg("line", { class: "now", y1: AXIS_PX - 5 });
   private readonly note = make("p", { class: "message" });
   private fromNs = NaN;
-  private spanNs = 0;
+  private spanNs = NaN;
   private isZoomed = false;
   private lanes: readonly number[] = [];
   private frames: readonly Frame[] = [];
@@ -138,7 +138,8 @@ export class Sequence {
     if (frame !== null && isNew) {
       const [start, end] = [startOf(frame), endOf(frame)];
       const longNs = end - start || SHORT_FRAME_NS;
-      if (!this.isZoomed && longNs / spanNs < 0.03) this.spanNs = (longNs * this.width) / CHOSEN_PX;
+      const share = longNs / spanNs;
+      if (!this.isZoomed && !(share > 0.03 && share < 0.7)) this.spanNs = (longNs * this.width) / CHOSEN_PX;
       if (!(has(start) && has(end)) || this.spanNs !== spanNs) this.fromNs = start - this.spanNs / 3;
     } else if (timeNs !== this.lastNs && !has(timeNs)) {
       if (!this.isZoomed && frame === null) this.spanNs = 2e9 * speed;
