@@ -32,7 +32,7 @@ export class Charts {
   private timeS = 0;
   private pointedS: number | null = null;
 
-  /** `showTime` is told which time the values belong to: that of the mouse, or of the clock. */
+  /** `showTime` is called with the time of the values: that of the mouse, or of the clock. */
   constructor(
     private readonly seek: (timeNs: number) => void,
     private readonly showTime: (timeS: number) => void,

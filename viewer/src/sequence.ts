@@ -1,5 +1,5 @@
-// The sequence chart: time across, a lane for each of some nodes. Frames are bars on the lane of their sender, with an
-// arrow to each reception, a bar below the lane of its receiver; a cross ends the arrow of a loss.
+// The sequence chart: time across, a lane for each of some nodes. A frame is a bar on the lane of its sender, with an
+// arrow to each reception. A reception is a bar below the lane of its receiver. A cross ends the arrow of a loss.
 
 import { Picture } from "./air";
 import { inkOn, isDark, outcomeColor, outcomeDash, outcomeWords, styleColor } from "./colors";
@@ -245,7 +245,7 @@ export class Sequence {
     for (let mark = Math.ceil((this.fromNs - base) / step); mark * step + base < this.fromNs + this.spanNs; mark += 1) {
       const x = this.x(base + mark * step);
       const text = svg("text", { class: "axis", x, y: 13, "text-anchor": "middle" });
-      text.append(mark === 0 ? "0" : (mark > 0 ? "+" : "−") + durationText(Math.abs(mark) * step).replace(/\.0+ /, " "));
+      text.append(mark === 0 ? "0" : (mark > 0 ? "+" : "−") + durationText(Math.abs(mark) * step).replace(/(\.\d*?)0+ /, "$1 ").replace(". ", " "));
       marks.push(svg("line", { class: "grid", x1: x, x2: x, y1: AXIS_PX - 3, y2: height }));
       if (x > 24 && x < this.width - 24) marks.push(text);
     }
@@ -400,7 +400,7 @@ function arrow([x0, y0]: Point, [x1, y1]: Point, color: string, dash: number, is
   return [line, svg("path", { class: isLost ? "cross" : "head", d: head, stroke: color, fill: isLost ? "none" : color })];
 }
 
-/** A name of at most so many letters: what differs is mostly at its end. */
+/** A name of at most this length: what differs is mostly at its end. */
 function shortName(name: string, letters: number): string {
   return name.length <= letters ? name : `${name.slice(0, letters - 5)}…${name.slice(-4)}`;
 }
