@@ -6,9 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from verification import field_row
+from verification.field_row import FieldRow
 from verification.finding import Finding, table
 
 _PAGES = Path(__file__).parents[2] / "docs" / "verification"
+_FIELD = _PAGES / "field.md"
 _BLOCK = re.compile(r"(<!-- table: written by `make verify` -->\n).*?(<!-- end of table -->)", re.DOTALL)
 
 
@@ -49,6 +52,23 @@ def report(record_property: Callable[[str, object], None]) -> Callable[[Finding]
 
 
 @pytest.fixture
+def field(
+    record_property: Callable[[str, object], None], request: pytest.FixtureRequest
+) -> Callable[[FieldRow], None]:
+    """`field(row)` records a row of field.md, and fails the test if the page has another one.
+
+    With --verify, the page is written instead. A row that does not agree stays in it.
+    """
+
+    def write_down(row: FieldRow) -> None:
+        record_property("field", row.to_json())
+        if not request.config.getoption("--verify"):
+            assert str(row) in _FIELD.read_text(encoding="utf-8").splitlines()
+
+    return write_down
+
+
+@pytest.fixture
 def picture(request: pytest.FixtureRequest) -> Callable[[str, Callable[[Path], None]], None]:
     """`picture(name, draw)` calls `draw(path of the file)` if pictures are requested."""
 
@@ -62,17 +82,22 @@ def picture(request: pytest.FixtureRequest) -> Callable[[str, Callable[[Path], N
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
     if not config.getoption("--verify") or config.getoption("collectonly"):
         return
-    findings = [
-        Finding.from_json(str(value))
+    properties = [
+        (name, str(value))
         for outcome in ("passed", "failed")
         for report in terminalreporter.getreports(outcome)
         for name, value in report.user_properties
-        if name == "finding"
     ]
+    findings = [Finding.from_json(value) for name, value in properties if name == "finding"]
+    rows = [FieldRow.from_json(value) for name, value in properties if name == "field"]
     terminalreporter.section("findings")
-    for finding in findings:
-        terminalreporter.write_line(str(finding))
+    for found in (*findings, *rows):
+        terminalreporter.write_line(str(found))
     is_complete = not config.getoption("keyword") and len(config.args) == 1 and "::" not in config.args[0]
     if is_complete and Path(config.args[0]).resolve() == Path(__file__).parent:
-        page = _PAGES / "README.md"
-        page.write_text(_BLOCK.sub(lambda block: block[1] + table(findings) + block[2], page.read_text()))
+        _write_table(_PAGES / "README.md", table(findings))
+        _write_table(_FIELD, field_row.table(rows))
+
+
+def _write_table(page: Path, text: str) -> None:
+    page.write_text(_BLOCK.sub(lambda block: block[1] + text + block[2], page.read_text()))
