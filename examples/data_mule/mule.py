@@ -50,7 +50,7 @@ class Mule(IProtocol):
 
     route: tuple[tuple[float, float, float], ...] = ((0, 0, 20), (800, 0, 20))
     """Waypoints in meters."""
-    speed: float = 10.0
+    speed: float = 20.0
     """m/s."""
 
     def initialize(self) -> None:

@@ -11,7 +11,7 @@ class Photographer(IProtocol):
         sent: Parts so far.
     """
 
-    rate: float = 100.0
+    rate: float = 400.0
     """Parts per second."""
     seconds: float = 10.0
     """Duration of the upload."""

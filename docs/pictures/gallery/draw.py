@@ -17,8 +17,7 @@ MORE_COMMANDS = {
         "gradysim plot results/map --kind map -o results/search-map.png",
     ],
     "collision_avoidance": [
-        "gradysim run collision_avoidance.ini --vectors all --quiet --result-dir results/map"
-        ' --set "*.drones[*].protocol.video_mbps=0.6"',
+        "gradysim run collision_avoidance.ini --vectors all --quiet --result-dir results/map",
         "gradysim plot results/map --kind map -o results/collision_avoidance-map.png",
     ],
     "sensor_field": [
