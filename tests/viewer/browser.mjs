@@ -1,7 +1,7 @@
 // Opens a replay in Debian's Chromium and says what it shows. Reads one JSON object from standard input:
 // {file, address, width, height, scale, dark, times, seeks, keys, fill, until, values, picture, screenshot, color,
 // within}, or
-// {url, beside} for a page with two replays, of which the first one gets a key. `values` are expressions.
+// {url} for a page with two replays. `values` are expressions.
 // `within` is how far a pixel's color may be from `color`, summed over red, green and blue (default 40).
 // With `picture`, `screenshot` or `color` it draws the page, which takes seconds.
 // `url` instead of `file`, the time `after` which to look, `pause`, and `kill`, [pid, signal], are for a run that goes on.
@@ -32,8 +32,7 @@ page.on("request", (request) => {
 
 const opened = performance.now();
 await page.goto(asked.url ?? `file://${asked.file}${asked.address ?? ""}`);
-if (asked.beside) said.times = await pressBeside(asked.beside);
-else await look();
+await look();
 await browser.close();
 process.stdout.write(JSON.stringify(said));
 
@@ -78,13 +77,15 @@ async function draw() {
 
 /**
  * Press a key, or `{click: selector}`, `{choose: name of a node}`, `{until: text}`, `{wheel: selector, by}`,
- * `{drag: selector, by}` in pixels to the right, from the middle of an element.
+ * `{drag: selector, by}` in pixels to the right, from the middle of an element, `{run: code}`, `{save: key, as: file}`.
  */
 async function act(key) {
   if (key.click) await page.locator(key.click).click();
   else if (key.choose) await page.getByRole("combobox", { name: "Node" }).selectOption(key.choose);
   else if (key.until) await shows(key.until);
   else if (key.wheel || key.drag) await turnOrDrag(key);
+  else if (key.run) await page.evaluate(key.run);
+  else if (key.save) await save(key);
   else await page.keyboard.press(key);
 }
 
@@ -122,16 +123,25 @@ async function pause() {
   await page.waitForFunction((before) => document.querySelector("input.time").value > before, time);
 }
 
-/** Press a key in the first of two replays; return the times that both show once they agree. */
-async function pressBeside(key) {
-  const [first, second] = page.frames().slice(1);
-  for (const frame of [first, second]) await frame.evaluate(() => gradysim.ready);
-  await first.locator("canvas.scene").press(key);
-  await first.waitForFunction(() => location.hash.includes("frame="));
-  const shown = () => document.querySelector("input.time").value;
-  const time = await first.evaluate(shown);
-  await second.waitForFunction((wanted) => document.querySelector("input.time").value === wanted, time);
-  return [time, await second.evaluate(shown)];
+/** Save what a key lets the page download; of a film, what it shows in the end. */
+async function save({ save: key, as }) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.keyboard.press(key)]);
+  await download.saveAs(as);
+  if (!as.endsWith(".webm")) return;
+  const player = await context.newPage();
+  said.film = await player.evaluate(async (base64) => {
+    const video = Object.assign(document.createElement("video"), { src: `data:video/webm;base64,${base64}`, muted: true });
+    const happens = (name) => new Promise((done, fail) => {
+      video.addEventListener(name, done, { once: true });
+      video.addEventListener("error", () => fail(video.error), { once: true });
+    });
+    await happens("loadeddata");
+    video.currentTime = 1e9; // the end of a file that does not say how long it is
+    await happens("seeked");
+    const canvas = Object.assign(document.createElement("canvas"), { width: video.videoWidth, height: video.videoHeight });
+    canvas.getContext("2d").drawImage(video, 0, 0);
+    return { duration_s: video.duration, end: canvas.toDataURL() };
+  }, readFileSync(as).toString("base64"));
 }
 
 /** How many colors a picture has, and how many pixels of it are near one color. */

@@ -2,7 +2,11 @@ import json
 import os
 import shutil
 import subprocess
+import sys
+from collections import Counter
+from contextlib import contextmanager
 from pathlib import Path
+from subprocess import PIPE
 
 import pytest
 
@@ -11,6 +15,7 @@ from gradysim.replay.sink import ReplayWriter
 from gradysim.scenario import load_scenarios
 
 ROOT = Path(__file__).parents[2]
+TEMPLATE = ROOT / "python/gradysim/cli/templates/scenario.ini"
 
 
 def record(path, file, config, duration):
@@ -30,8 +35,13 @@ def zigzag(tmp_path_factory):
 @pytest.fixture(scope="session")
 def reports(tmp_path_factory):
     """The replay of a run in which all vehicles fly together."""
-    file = ROOT / "python/gradysim/cli/templates/scenario.ini"
-    return record(tmp_path_factory.mktemp("replay") / "reports.html", file, "Jittered", "15s")
+    return record(tmp_path_factory.mktemp("replay") / "reports.html", TEMPLATE, "Jittered", "15s")
+
+
+@pytest.fixture(scope="session")
+def collisions(tmp_path_factory):
+    """The replay of a run in which all vehicles fly together and send at the same instants."""
+    return record(tmp_path_factory.mktemp("replay") / "collisions.html", TEMPLATE, "General", "15s")
 
 
 @pytest.fixture(scope="session")
@@ -64,6 +74,28 @@ def browser(viewer):
         return json.loads(done.stdout)
 
     return show
+
+
+def state(replay, time_s):
+    """Return the state that `gradysim.state` of the page gives, computed from the tables."""
+    began = [start <= time_s * 1e9 for start in replay.table("frames")["time_ns"]]
+    outcomes = Counter(reception.outcome for reception in replay.receptions() if began[reception.frame])
+    outcomes["below_sensitivity"] = sum(
+        count for count, has in zip(replay.table("frames")["unnoticed"], began, strict=True) if has
+    )
+    positions = [list(place) for place in replay.positions(time_s)]
+    return {"time_s": time_s, "positions": positions, "frames": sum(began), "outcomes": dict(+outcomes)}
+
+
+@contextmanager
+def viewing(*arguments):
+    """Start `gradysim view`; return its process and the address of its page."""
+    command = [sys.executable, "-m", "gradysim", "view", *arguments, "--no-browser"]
+    with subprocess.Popen(command, stdout=PIPE, stderr=PIPE, text=True) as view:
+        try:
+            yield view, view.stdout.readline().strip()
+        finally:
+            view.kill()
 
 
 def need(is_there, what):

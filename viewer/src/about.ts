@@ -31,17 +31,23 @@ export function warningOf(replay: Replay): string {
   return parts.join(" ");
 }
 
-export function runDialog({ run }: Replay): HTMLDialogElement {
-  const facts: [string, string][] = [
-    ["file", run.file],
-    ["configuration", run.config],
-    ["run", String(run.run)],
-    ["mode", run.mode],
-    ["seed", String(run.seed)],
-    ["duration", `${run.duration_s} s`],
-    ...Object.entries(run.iterations).map(([name, value]): [string, string] => [name, String(value)]),
-  ];
-  const rows = facts.map(([name, value]) => make("tr", {}, make("th", {}, name), make("td", {}, value)));
-  const ini = run.ini ? [make("h3", {}, "Configuration file"), make("pre", { tabindex: "0" }, run.ini)] : [];
+/** The facts of runs side by side, and their configuration files. */
+export function runDialog(replays: Replay[]): HTMLDialogElement {
+  const facts = replays.map(({ run }) => ({
+    file: run.file,
+    configuration: run.config,
+    run: String(run.run),
+    mode: run.mode,
+    seed: String(run.seed),
+    duration: `${run.duration_s} s`,
+    ...run.iterations,
+  }));
+  const names = new Set(facts.flatMap((one) => Object.keys(one)));
+  const rows = [...names].map((name) => {
+    const values = facts.map((one: Record<string, unknown>) => make("td", {}, String(one[name] ?? "")));
+    return make("tr", {}, make("th", {}, name), ...values);
+  });
+  const texts = [...new Set(replays.map(({ run }) => run.ini))].filter(Boolean);
+  const ini = texts.flatMap((text) => [make("h3", {}, "Configuration file"), make("pre", { tabindex: "0" }, text)]);
   return dialog("What was run", make("table", {}, make("tbody", {}, ...rows)), ...ini);
 }

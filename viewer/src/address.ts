@@ -12,7 +12,10 @@ export interface Place {
   frame: number | null;
 }
 
-export function readAddress(replay: Replay): Place {
+/** A node of `readAddress`. */
+type Named = Readonly<{ id: number; name: string }>;
+
+export function readAddress(nodes: readonly Named[]): Place {
   const values = new URLSearchParams(location.hash.slice(1));
   const time = Number.parseFloat(values.get("t") ?? "");
   const frame = Number.parseInt(values.get("frame") ?? "", 10);
@@ -20,23 +23,23 @@ export function readAddress(replay: Replay): Place {
     timeNs: Number.isNaN(time) ? null : time * 1e9,
     frame: Number.isNaN(frame) ? null : frame,
     state: {
-      node: nodeCalled(replay, values.get("node")),
+      node: nodeCalled(nodes, values.get("node")),
       isFollowing: values.get("follow") === "1",
       sequence: values.get("sequence") === "1",
-      pinned: (values.get("pins") ?? "").split(",").flatMap((pin) => nodeCalled(replay, pin) ?? []),
+      pinned: (values.get("pins") ?? "").split(",").flatMap((pin) => nodeCalled(nodes, pin) ?? []),
       filter: values.get("filter") ?? "",
     },
   };
 }
 
-function nodeCalled({ run }: Replay, name: string | null): number | null {
-  return run.nodes.find((node) => node.name === name || String(node.id) === name)?.id ?? null;
+function nodeCalled(nodes: readonly Named[], name: string | null): number | null {
+  return nodes.find((node) => node.name === name || String(node.id) === name)?.id ?? null;
 }
 
 export class Address {
   private timer = 0;
 
-  constructor(private readonly replay: Replay) {}
+  constructor(private readonly replay: Pick<Replay, "nameOf" | "chunks">) {}
 
   /** Write it a little later: browsers limit how often it may change. */
   write(timeNs: number, state: Readonly<State>): void {
@@ -56,7 +59,7 @@ export class Address {
   }
 }
 
-export function frameNumber(replay: Replay, { chunk, row }: Frame): number {
+export function frameNumber(replay: Pick<Replay, "chunks">, { chunk, row }: Frame): number {
   return firstFrame(replay, chunk.index) + row;
 }
 
@@ -69,6 +72,6 @@ export async function findNumber(replay: Replay, number: number): Promise<Frame 
   return null;
 }
 
-function firstFrame(replay: Replay, index: number): number {
+function firstFrame(replay: Pick<Replay, "chunks">, index: number): number {
   return replay.chunks.slice(0, index).reduce((sum, { header }) => sum + header.tables.frames.rows, 0);
 }

@@ -2,14 +2,13 @@
 
 import { runDialog, subtitleOf, titleOf, warningOf } from "./about";
 import { Address, findNumber, readAddress } from "./address";
-import { Neighbors } from "./beside";
 import { SLANT } from "./camera";
+import { Capture } from "./capture";
 import { Clock, speedFor } from "./clock";
 import { Actions, Controls } from "./controls";
 import { make } from "./dom";
 import { Filter, parseFilter } from "./filter";
 import { FrameDetails } from "./frame_details";
-import { senderOf } from "./frame_text";
 import { FrameList } from "./frames";
 import { Inspector } from "./inspector";
 import { keysDialog, listenToKeys } from "./keys";
@@ -41,7 +40,7 @@ export class App implements Actions {
   private readonly chosen: FrameDetails;
   private readonly address: Address;
   private readonly dialogs: { run: HTMLDialogElement; keys: HTMLDialogElement };
-  private readonly neighbors: Neighbors;
+  private readonly capture: Capture;
   private readonly warning = make("p", { class: "mistake" });
   private readonly side = make("aside");
   private filter: Filter;
@@ -55,7 +54,7 @@ export class App implements Actions {
     this.clock = new Clock(source.follows);
     this.filter = parseFilter("", this.replay);
     this.address = new Address(this.replay);
-    this.dialogs = { run: runDialog(this.replay), keys: keysDialog() };
+    this.dialogs = { run: runDialog([this.replay]), keys: keysDialog() };
     this.controls = new Controls(this.clock, this.store, this);
     this.inspector = new Inspector(
       this.replay,
@@ -86,10 +85,13 @@ export class App implements Actions {
       if (node !== null && isToPin) this.pin(node);
       else if (node !== null || this.store.now.node !== null) this.store.set({ node });
     });
-    this.neighbors = new Neighbors(({ timeNs, ...told }) => {
-      Object.assign(this.clock, told);
-      this.goTo(timeNs);
-    });
+    const title = [titleOf(this.replay), this.replay.run.mode].filter(Boolean).join(" · ");
+    this.capture = new Capture(
+      () => [{ stage: canvas.parentElement as HTMLElement, title }],
+      this.clock,
+      () => this.drawNow(),
+      (text) => setText(this.warning, text),
+    );
     this.listen(canvas);
     source.onChange = () => this.takeNews();
     this.takeNews();
@@ -105,23 +107,21 @@ export class App implements Actions {
   /** Go to a time, choosing no frame, and draw it. */
   async show(timeNs: number): Promise<void> {
     this.seek(timeNs);
-    await this.replay.load(this.clock.timeNs);
-    this.draw();
+    await this.drawNow();
   }
 
   seek(timeNs: number): void {
-    this.neighbors.leads = true;
-    this.goTo(timeNs);
+    this.clock.seek(timeNs);
+    if (this.store.now.frame !== null) this.store.set({ frame: null });
+    this.redraw();
   }
 
   playOrPause(): void {
-    this.neighbors.leads = true;
     this.clock.toggle();
     this.redraw();
   }
 
   setSpeed(speed: number): void {
-    this.neighbors.leads = true;
     this.clock.speed = speed;
     this.redraw();
   }
@@ -165,21 +165,25 @@ export class App implements Actions {
   /** Show the chosen frame or node from near. */
   zoom(): void {
     const { frame, node } = this.store.now;
-    if (frame !== null) {
-      const receivers = frame.chunk.frames.receptions(frame.row).map(({ receiver }) => receiver);
-      const nodes = [senderOf(frame), ...receivers, ...this.chosen.interferers.map((interferer) => interferer.node)];
-      this.scene.zoomTo(nodes.flatMap((one) => [...this.replay.position(one, frame)]));
-    } else if (node !== null) {
-      const [x, y, z] = this.replay.positions(this.clock.timeNs).subarray(node * 3, node * 3 + 3);
-      const range = this.replay.nodes.get(node)?.range_m ?? 50;
-      this.scene.zoomTo([x - range, y - range, z, x + range, y + range, z]);
-    } else return this.showAll();
+    if (!this.scene.zoomIn(this.clock.timeNs, frame, this.chosen.interferers, node)) this.showAll();
     this.redraw();
   }
 
   toggleTop(): void {
     this.scene.camera.toggleTop();
     this.redraw();
+  }
+
+  savePicture(): void {
+    void this.capture.save();
+  }
+
+  toggleFilm(): void {
+    void this.capture.toggleFilm();
+  }
+
+  get isRecording(): boolean {
+    return this.capture.isRecording;
   }
 
   focusFilter(): void {
@@ -200,12 +204,6 @@ export class App implements Actions {
     const { end, isLive, isLost } = this.replay.source;
     this.clock.grow(this.replay.endNs, isLive && !isLost && end === null);
     setText(this.warning, warningOf(this.replay));
-    this.redraw();
-  }
-
-  private goTo(timeNs: number): void {
-    this.clock.seek(timeNs);
-    if (this.store.now.frame !== null) this.store.set({ frame: null });
     this.redraw();
   }
 
@@ -268,7 +266,7 @@ export class App implements Actions {
   }
 
   private async goToAddress(): Promise<void> {
-    const place = readAddress(this.replay);
+    const place = readAddress(this.replay.run.nodes);
     this.store.set(place.state);
     const frame = place.frame === null ? null : await findNumber(this.replay, place.frame);
     if (frame) await this.chooseFrame(frame);
@@ -282,19 +280,9 @@ export class App implements Actions {
       this.clock.speed = speedFor(this.clock.endNs);
     }
     await this.replay.load(0);
-    this.scene.fit(this.extent(), SLANT);
+    this.scene.fit(this.replay.extent(), SLANT);
     await this.goToAddress();
     requestAnimationFrame((nowMs) => this.tick(nowMs));
-  }
-
-  /** What the first picture shows: where nodes are during the whole run, as far as it is known. */
-  private extent(): number[] {
-    const boxes = this.replay.chunks.flatMap(({ header: { extent_m: box = [] } }) => {
-      const axis = (first: number): number[] => (box.length ? [box[first], box[first + 3]] : []);
-      return axis(0).flatMap((x) => axis(1).flatMap((y) => axis(2).flatMap((z) => [x, y, z])));
-    });
-    const nodes = boxes.length ? boxes : [...(this.replay.chunk(0)?.legs.ends() ?? [])].flat();
-    return [...nodes, ...(this.replay.run.extent_m ?? [])];
   }
 
   private tick(nowMs: number): void {
@@ -302,7 +290,7 @@ export class App implements Actions {
     this.lastTickMs = nowMs;
     const isReady = this.replay.isReady(this.clock.timeNs);
     this.replay.source.tell(this.clock.timeNs, this.clock.speed, this.clock.isPlaying);
-    if (isReady && this.neighbors.mayAdvance && this.clock.advance(wallS)) {
+    if (isReady && this.clock.advance(wallS)) {
       if (this.store.now.frame !== null) this.store.set({ frame: null });
       this.isDirty = true;
       // What comes next is decoded before it is needed.
@@ -315,11 +303,15 @@ export class App implements Actions {
     requestAnimationFrame((next) => this.tick(next));
   }
 
+  private async drawNow(): Promise<void> {
+    await this.replay.load(this.clock.timeNs);
+    this.draw();
+  }
+
   private draw(): void {
     this.isDirty = false;
     this.areTextsOld = true;
-    const { timeNs, speed, isPlaying } = this.clock;
-    this.neighbors.tell({ timeNs, speed, isPlaying });
+    const { timeNs, speed } = this.clock;
     const positions = this.replay.positions(timeNs);
     const state = this.store.now;
     const { filter, chosen } = this;
@@ -327,8 +319,9 @@ export class App implements Actions {
     const picture = { timeNs, speed, positions, state, look, filter, interferers: chosen.interferers };
     this.scene.draw(picture);
     this.sequence.draw(picture);
-    this.overlay.draw(positions, state, look);
+    this.overlay.draw(timeNs, positions, state, look);
     this.timeline.draw(timeNs);
+    this.capture.add();
     this.controls.update();
     const missing = this.replay.missingBefore(timeNs, Math.max(0, timeNs - TRAIL_S * 1e9));
     if (missing !== null) void this.replay.loadChunk(missing).then(() => this.redraw());

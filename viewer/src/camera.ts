@@ -71,6 +71,15 @@ export class Camera {
     this.place(distance, polar, azimuth);
   }
 
+  /** Look from where another camera does, whose coordinates begin at `shift`. */
+  lookAs(other: Camera, shift: THREE.Vector3): void {
+    const [place, target] = [other.camera.position, other.target].map((one) => one.clone().add(shift));
+    if (place.equals(this.camera.position) && target.equals(this.target)) return;
+    this.camera.position.copy(place);
+    this.controls.target.copy(target);
+    this.controls.update();
+  }
+
   /** Look down, or slanting again. */
   toggleTop(): void {
     // From above the ground is not foreshortened: it takes more room.

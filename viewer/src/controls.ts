@@ -16,11 +16,15 @@ export interface Actions {
   stepOfNode(direction: 1 | -1): void;
   chooseNode(direction: 1 | -1): void;
   /** Pin the chosen node, or this one, or unpin it. */
-  pin(node?: number): void;
+  pin?(node?: number): void;
   clearChoice(): void;
   showAll(): void;
   zoom(): void;
   toggleTop(): void;
+  savePicture(): void;
+  /** Start to record a film, or end it. */
+  toggleFilm(): void;
+  readonly isRecording: boolean;
   focusFilter(): void;
   showRun(): void;
   showKeys(): void;
@@ -33,6 +37,7 @@ export class Controls {
   private readonly speed = make("select", { "aria-label": "Speed", title: "Speed (+ and −)" });
   private readonly time = make("input", { class: "time", "aria-label": "Time in seconds", inputmode: "decimal" });
   private readonly end = make("span", { class: "muted" });
+  private readonly film = button("Film", "Record a film of the scene, or end it (v)", () => this.actions.toggleFilm());
   private readonly toggles = new Map<keyof State, HTMLButtonElement>();
 
   constructor(
@@ -76,7 +81,9 @@ export class Controls {
     );
     this.addToggle("labels", "Names", "Show the names of nodes (l)");
     this.addToggle("trails", "Trails", "Show trails: the path of the last 30 s (r)");
-    this.addToggle("sequence", "Sequence", "Show which node sent when to which one (s)").classList.add("of-frames");
+    this.addToggle("sequence", "Sequence", "Show which node sent when to which one (s)").classList.add("of-frames", "alone");
+    this.addToggle("legend", "Legend", "Show what shapes and lines stand for (g)");
+    this.tools.append(button("Picture", "Save a picture of the scene (c)", () => actions.savePicture()), this.film);
     const run = button("Run", "What was run (i)", () => actions.showRun());
     run.classList.add("of-frames");
     this.tools.append(run, button("Keys", "Keys (?)", () => actions.showKeys()));
@@ -93,6 +100,7 @@ export class Controls {
     if (document.activeElement !== this.time) this.time.value = timeText(timeNs);
     if (document.activeElement !== this.speed || Number(this.speed.value) !== speed)
       this.speed.value = String(speed);
+    this.film.setAttribute("aria-pressed", String(this.actions.isRecording));
     for (const [name, element] of this.toggles)
       element.setAttribute("aria-pressed", String(this.store.now[name]));
   }

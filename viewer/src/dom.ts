@@ -47,10 +47,21 @@ export function countText(count: number): string {
   return count.toLocaleString("en-US");
 }
 
+export function shareText(share: number): string {
+  return share < 0.0005 ? "< 0.1 %" : `${(100 * share).toFixed(1)} %`;
+}
+
+/** The least number of device pixels in a pixel of the page: more while a picture is taken. */
+export const sharpness = { least: 1 };
+
+export function deviceRatio(): number {
+  return Math.max(window.devicePixelRatio, sharpness.least);
+}
+
 /** Draw on a canvas in pixels of the page; return its context, cleared, and its size. */
 export function prepareCanvas(canvas: HTMLCanvasElement): [CanvasRenderingContext2D, number, number] {
   const { clientWidth: width, clientHeight: height } = canvas;
-  const ratio = window.devicePixelRatio;
+  const ratio = deviceRatio();
   const [wide, tall] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== wide || canvas.height !== tall) {
     canvas.width = wide;

@@ -1,7 +1,7 @@
 // What is known of the chosen node, or of all nodes, at the time of the clock.
 
 import { outcomeColor, outcomeDash, outcomeWords } from "./colors";
-import { countText, distanceText, make, timeText } from "./dom";
+import { countText, distanceText, make, shareText, timeText } from "./dom";
 import { Replay } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";
@@ -90,13 +90,8 @@ export class Inspector {
     const whole = timeNs === 0 ? this.replay.whole : null;
     const tally = whole ?? this.replay.tally(timeNs);
     setText(this.outcomesTitle, whole ? "Outcomes of the whole run" : "Outcomes so far");
-    const { counts } = tally;
-    const sums = outcomes.map(() => 0);
-    for (let place = 0; place < counts.length; place += 1)
-      if (node === null || Math.floor(place / outcomes.length) === node)
-        sums[place % outcomes.length] += counts[place];
+    const sums = tally.sums(node);
     const unnoticed = tally.unnoticedAt(node);
-    if (unnoticed !== null && this.replay.unnoticed >= 0) sums[this.replay.unnoticed] = unnoticed;
     const total = sums.reduce((a, b) => a + b, 0);
     const rows = outcomes.map((name, outcome) => ({ name, count: sums[outcome] })).filter((row) => row.count);
     const isMissing = node !== null && recorded !== null && !recorded.includes(node);
@@ -158,10 +153,6 @@ export class Inspector {
       setText(element.children[1], `${timeText(atNs, 3)} s`);
     });
   }
-}
-
-function shareText(share: number): string {
-  return share < 0.0005 ? "< 0.1 %" : `${(100 * share).toFixed(1)} %`;
 }
 
 function listButton(): HTMLButtonElement {

@@ -29,6 +29,16 @@ export class Legs {
     into[place + 2] = z0[row] + share * (z1[row] - z0[row]);
   }
 
+  /** Return in which direction a node moves: a vector of length 1, or 0 if it stands. */
+  heading(node: number, timeNs: number): [number, number, number] {
+    const row = this.rowAt(node, timeNs);
+    const { time_ns, duration_ns, x0, y0, z0, x1, y1, z1 } = this.table;
+    if (row < 0 || timeNs > time_ns[row] + duration_ns[row]) return [0, 0, 0];
+    const step = [x1[row] - x0[row], y1[row] - y0[row], z1[row] - z0[row]];
+    const length = Math.hypot(...step);
+    return length > 1e-9 ? [step[0] / length, step[1] / length, step[2] / length] : [0, 0, 0];
+  }
+
   /** Give the corners of the way of a node between two times, without its ends. */
   *corners(node: number, fromNs: number, toNs: number): Generator<[number, number, number, number]> {
     const { time_ns, x0, y0, z0 } = this.table;

@@ -1,5 +1,5 @@
 import { App } from "./app";
-import { Beside, showBeside } from "./beside";
+import { Files, showBeside } from "./beside";
 import { make } from "./dom";
 import { liveSource } from "./live";
 import { scriptInterface } from "./script";
@@ -9,11 +9,19 @@ import "./style.css";
 
 async function start(): Promise<void> {
   try {
-    const beside = jsonElement<Beside>("gradysim-beside");
-    if (beside !== null) return showBeside(beside);
+    const files = jsonElement<Files>("gradysim-beside");
+    if (files !== null) {
+      const beside = await showBeside(files);
+      const runs = beside.views.map(({ replay }) => scriptInterface(beside, replay));
+      Object.assign(window, { gradysim: { ...runs[0], runs } });
+      return;
+    }
     const source = await (liveSource() ?? snapshotSource() ?? fileSource());
     if (source === null) document.body.append(make("p", { class: "message" }, "This page holds no run."));
-    else Object.assign(window, { gradysim: scriptInterface(new App(source)) });
+    else {
+      const app = new App(source);
+      Object.assign(window, { gradysim: scriptInterface(app, app.replay) });
+    }
   } catch (error) {
     document.body.append(make("p", { class: "mistake" }, `The replay cannot be shown: ${(error as Error).message}`));
     throw error;

@@ -2,6 +2,7 @@
 
 import { inkOn, styleColor } from "./colors";
 import { distanceText, prepareCanvas } from "./dom";
+import { drawLegend } from "./legend";
 import { Look } from "./look";
 import { Replay } from "./replay";
 import { Scene } from "./scene";
@@ -10,6 +11,7 @@ import { State } from "./state";
 const NEAR_PX = 16;
 
 export class Overlay {
+  private occurring: string[] | null = null;
   private readonly widths = new Map<string, number>(); // of names
   private readonly places = new Map<number, { x: number; y: number; depth: number }>();
 
@@ -17,9 +19,10 @@ export class Overlay {
     private readonly canvas: HTMLCanvasElement,
     private readonly replay: Replay,
     private readonly scene: Scene,
+    private readonly legendOf: readonly Replay[] = [replay],
   ) {}
 
-  draw(positions: Float64Array, state: Readonly<State>, look: Look): void {
+  draw(timeNs: number, positions: Float64Array, state: Readonly<State>, look: Look): void {
     const [context, width, height] = prepareCanvas(this.canvas);
     this.project(positions, width, height);
     context.font = "12px system-ui, sans-serif";
@@ -28,8 +31,21 @@ export class Overlay {
     context.lineWidth = 3;
     context.strokeStyle = styleColor("--scene");
     context.fillStyle = inkOn(styleColor("--scene"));
-    if (state.labels) this.drawLabels(context, width, state.node, look.nameless);
+    if (state.labels) this.drawLabels(context, width, timeNs, state.node, look.nameless);
+    if (state.legend && this.legendOf.length) drawLegend(context, [...this.scene.groups.keys()], this.outcomes());
     this.drawScale(context, height);
+  }
+
+  /** Outcomes of the runs of the legend; of one that goes on, those that are possible. */
+  private outcomes(): string[] {
+    if (this.occurring !== null) return this.occurring;
+    const names = this.legendOf.flatMap(({ whole, possible, run }) => {
+      const sums = whole?.sums(null);
+      return run.outcomes.filter((_, outcome) => (sums ? sums[outcome] : possible.includes(outcome)));
+    });
+    const found = [...new Set(names)];
+    if (this.replay.whole !== null) this.occurring = found;
+    return found;
   }
 
   /** Call `choose` with the node clicked on the 3-D picture, or null for none, and whether Shift was pressed. Dragging is not a click. */
@@ -69,6 +85,7 @@ export class Overlay {
   private drawLabels(
     context: CanvasRenderingContext2D,
     width: number,
+    timeNs: number,
     chosen: number | null,
     hidden: Set<number>,
   ): void {
@@ -80,7 +97,8 @@ export class Overlay {
     for (const [node, { x, y }] of nodes) {
       const name = this.replay.nameOf(node);
       const wide = this.widthOf(context, name);
-      const [left, middle] = [x + 14 + wide <= width ? x + 10 : x - 10 - wide, y];
+      const gap = this.replay.heading(node, timeNs).some(Boolean) ? 15 : 10; // the mark of one that moves has a point
+      const [left, middle] = [x + gap + 4 + wide <= width ? x + gap : x - gap - wide, y];
       const box: [number, number, number, number] = [left - 3, middle - 8, left + wide + 3, middle + 8];
       const overlaps = taken.some((o) => o[0] < box[2] && box[0] < o[2] && o[1] < box[3] && box[1] < o[3]);
       if (overlaps && node !== chosen) continue;

@@ -188,6 +188,21 @@ export class Replay {
     return places;
   }
 
+  /** Return in which direction a node moves: a vector of length 1, or 0 if it stands. Needs `load`. */
+  heading(node: number, timeNs: number): [number, number, number] {
+    return this.chunk(this.chunkIndexAt(timeNs))?.legs.heading(node, timeNs) ?? [0, 0, 0];
+  }
+
+  /** Return places between which all nodes are during the whole run, as far as it is known: x, y, z, x, … */
+  extent(): number[] {
+    const boxes = this.chunks.flatMap(({ header: { extent_m: box = [] } }) => {
+      const axis = (first: number): number[] => (box.length ? [box[first], box[first + 3]] : []);
+      return axis(0).flatMap((x) => axis(1).flatMap((y) => axis(2).flatMap((z) => [x, y, z])));
+    });
+    const nodes = boxes.length ? boxes : [...(this.chunk(0)?.legs.ends() ?? [])].flat();
+    return [...nodes, ...(this.run.extent_m ?? [])];
+  }
+
   /** Return how the run wants to be drawn. */
   look(timeNs: number): Look {
     return this.chunks[this.chunkIndexAt(timeNs)]?.look ?? PLAIN;

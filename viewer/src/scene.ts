@@ -1,15 +1,22 @@
 // The 3-D picture: ground, obstacles, nodes, trails, frames on the air and their receptions.
 
 import * as THREE from "three";
-import { Air, Picture } from "./air";
+import { Air, Interferer, Picture } from "./air";
 import { Camera } from "./camera";
 import { groupColor, isDark, outcomeColor, rgb, styleColor } from "./colors";
+import { deviceRatio } from "./dom";
+import { senderOf } from "./frame_text";
 import { pixelRatio, resolution } from "./instances";
-import { Chunk, Replay } from "./replay";
+import { Chunk, Frame, Replay } from "./replay";
 import * as shapes from "./shapes";
 
 /** Length of trails in simulated time. */
 export const TRAIL_S = 30;
+
+/** The groups of nodes, each of which has its shape and color. */
+function groupsOf({ run }: Replay): string[] {
+  return [...new Set(run.nodes.map((node) => node.group))];
+}
 
 export class Scene {
   readonly camera: Camera;
@@ -22,7 +29,7 @@ export class Scene {
   private readonly marks = shapes.marks(6);
   private readonly obstacles = new THREE.Group();
   private readonly ground: THREE.Mesh<THREE.PlaneGeometry, THREE.ShaderMaterial>;
-  private readonly groups: ReadonlyMap<string, number>;
+  readonly groups: ReadonlyMap<string, number>;
   private background = "";
   private isPlaced = false; // whether `origin` is set: what is drawn depends on it
 
@@ -30,12 +37,12 @@ export class Scene {
     private readonly canvas: HTMLCanvasElement,
     private readonly replay: Replay,
     onMove: () => void,
+    groups: readonly string[] = groupsOf(replay),
   ) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
     this.renderer.debug.checkShaderErrors = false; // Asking would wait for the compiler.
     this.camera = new Camera(canvas, onMove);
-    const names = [...new Set(replay.run.nodes.map((node) => node.group))];
-    this.groups = new Map(names.map((name, index) => [name, index]));
+    this.groups = new Map(groups.map((name, index) => [name, index]));
     this.ground = new THREE.Mesh(
       new THREE.PlaneGeometry(1, 1),
       new THREE.ShaderMaterial({
@@ -99,6 +106,25 @@ export class Scene {
     this.camera.fit(places, polar);
   }
 
+  /** Zoom in on a frame, or else on a node; return whether there was one. */
+  zoomIn(timeNs: number, frame: Frame | null, interferers: readonly Interferer[], node: number | null): boolean {
+    if (frame !== null) {
+      const receivers = frame.chunk.frames.receptions(frame.row).map(({ receiver }) => receiver);
+      const nodes = [senderOf(frame), ...receivers, ...interferers.map((interferer) => interferer.node)];
+      this.zoomTo(nodes.flatMap((one) => [...this.replay.position(one, frame)]));
+    } else if (node !== null) {
+      const [x, y, z] = this.replay.positions(timeNs).subarray(node * 3, node * 3 + 3);
+      const range = this.replay.nodes.get(node)?.range_m ?? 50;
+      this.zoomTo([x - range, y - range, z, x + range, y + range, z]);
+    }
+    return frame !== null || node !== null;
+  }
+
+  /** Look from where another scene does. */
+  lookAs(other: Scene): void {
+    this.camera.lookAs(other.camera, other.origin.clone().sub(this.origin));
+  }
+
   draw(picture: Picture): void {
     this.resize();
     const { state, positions, look } = picture;
@@ -121,13 +147,14 @@ export class Scene {
   }
 
   private resize(): void {
-    const ratio = Math.min(window.devicePixelRatio, 3);
+    const ratio = Math.min(deviceRatio(), 3);
     const { clientWidth: width, clientHeight: height } = this.canvas;
+    pixelRatio.value = ratio; // another scene may have another one
+    this.renderer.getDrawingBufferSize(resolution.value);
     if (resolution.value.x === Math.floor(width * ratio) && resolution.value.y === Math.floor(height * ratio)) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(width, height, false);
     this.renderer.getDrawingBufferSize(resolution.value);
-    pixelRatio.value = ratio;
     this.camera.resize(Math.max(1, width), Math.max(1, height));
   }
 
@@ -175,7 +202,7 @@ export class Scene {
     this.trails.show();
   }
 
-  private drawNodes({ positions, state, look, interferers }: Picture): void {
+  private drawNodes({ timeNs, positions, state, look, interferers }: Picture): void {
     this.marks.clear();
     this.ranges.clear();
     const accent = rgb(styleColor("--accent"));
@@ -189,10 +216,10 @@ export class Scene {
       const group = this.groupOf(node);
       const color = look.colors.get(node) ?? rgb(groupColor(group));
       const size = look.radiusM ? Math.max(4, 2 * look.radiusM * this.camera.pixelsPerMeter(place)) : usual;
-      this.marks.add(x, y, z, ...color, 1, size, group % shapes.SHAPES);
-      if (interfering.has(node)) this.marks.add(x, y, z, ...interference, 1, size + 12, shapes.CIRCLE);
+      this.marks.add(x, y, z, ...color, 1, size, group % shapes.SHAPES, ...this.replay.heading(node, timeNs));
+      if (interfering.has(node)) this.marks.add(x, y, z, ...interference, 1, size + 12, shapes.CIRCLE, 0, 0, 0);
       if (node !== state.node) continue;
-      this.marks.add(x, y, z, ...accent, 1, size + 12, shapes.CIRCLE);
+      this.marks.add(x, y, z, ...accent, 1, size + 12, shapes.CIRCLE, 0, 0, 0);
       if (range_m !== null) this.ranges.add(x, y, z, range_m, ...accent, 0.8, 1.5);
     }
     this.marks.show();

@@ -1,6 +1,6 @@
 // What scripts and tests can ask of the page: `await gradysim.ready; await gradysim.state(12.5)`.
 
-import { App } from "./app";
+import { Replay } from "./replay";
 
 export interface RunState {
   time_s: number;
@@ -20,8 +20,10 @@ export interface ScriptInterface {
   state(timeS: number): Promise<RunState>;
 }
 
-export function scriptInterface(app: App): ScriptInterface {
-  const { replay } = app;
+export function scriptInterface(
+  app: { ready: Promise<void>; show(timeNs: number): Promise<void> },
+  replay: Replay,
+): ScriptInterface {
   return {
     ready: app.ready,
     seek: (timeS) => app.show(timeS * 1e9),
@@ -30,22 +32,15 @@ export function scriptInterface(app: App): ScriptInterface {
       await replay.load(timeNs);
       const places = replay.positions(timeNs);
       const tally = replay.tally(timeNs);
-      const { frames, counts } = tally;
-      const names = replay.run.outcomes;
-      const outcomes: Record<string, number> = {};
-      counts.forEach((count, place) => {
-        const name = names[place % names.length];
-        if (count) outcomes[name] = (outcomes[name] ?? 0) + count;
-      });
-      const unnoticed = tally.unnoticedAt(null);
-      if (unnoticed) outcomes[names[replay.unnoticed]] = unnoticed;
+      const sums = tally.sums(null).map((count, outcome): [string, number] => [replay.run.outcomes[outcome], count]);
+      const outcomes = Object.fromEntries(sums.filter(([, count]) => count));
       const ids = [...replay.nodes.keys()].sort((a, b) => a - b);
       const positions = ids.map((id): [number, number, number] => [
         places[id * 3],
         places[id * 3 + 1],
         places[id * 3 + 2],
       ]);
-      return { time_s: timeS, positions, frames, outcomes };
+      return { time_s: timeS, positions, frames: tally.frames, outcomes };
     },
   };
 }

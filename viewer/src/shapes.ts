@@ -81,13 +81,16 @@ export function rings(order: number): Instances {
 }
 
 const MARK_VERTEX = `
-attribute vec3 center; attribute vec4 color; attribute float size; attribute float shape;
+attribute vec3 center; attribute vec4 color; attribute float size; attribute float shape; attribute vec3 heading;
 uniform vec2 resolution; uniform float pixelRatio;
-varying vec2 vPlace; varying vec4 vColor; varying float vSize; varying float vShape;
+varying vec2 vPlace; varying vec4 vColor; varying float vSize; varying float vShape; varying vec2 vAhead;
 void main() {
   vec4 clip = projectionMatrix * modelViewMatrix * vec4(center, 1.0);
+  vec4 ahead = projectionMatrix * modelViewMatrix * vec4(center + heading * clip.w * 0.01, 1.0);
+  vec2 step = (ahead.xy / ahead.w - clip.xy / clip.w) * resolution;
+  vAhead = length(step) > 0.1 ? normalize(step) : vec2(0.0);
   vSize = size * pixelRatio * 0.5;
-  vPlace = position.xy * (vSize + 3.0 * pixelRatio);
+  vPlace = position.xy * (vSize * (1.0 + length(vAhead)) + 3.0 * pixelRatio);
   clip.xy += vPlace / (resolution * 0.5) * clip.w;
   vColor = color;
   vShape = shape;
@@ -96,7 +99,12 @@ void main() {
 
 const MARK_FRAGMENT = `
 uniform vec3 outline; uniform float pixelRatio;
-varying vec2 vPlace; varying vec4 vColor; varying float vSize; varying float vShape;
+varying vec2 vPlace; varying vec4 vColor; varying float vSize; varying float vShape; varying vec2 vAhead;
+// A point in the direction in which a node moves.
+float distanceToPoint(vec2 p) {
+  vec2 q = vec2(abs(p.x * vAhead.y - p.y * vAhead.x), dot(p, vAhead));
+  return length(vAhead) < 0.5 ? 1e6 : max(q.x * 0.91 + (q.y - vSize * 1.9) * 0.41, -q.y);
+}
 float distanceTo(vec2 p) {
   vec2 q = abs(p);
   if (vShape < 0.5) return length(p) - vSize;                                  // disc
@@ -106,7 +114,7 @@ float distanceTo(vec2 p) {
   return abs(length(p) - vSize) - 1.3 * pixelRatio;                            // circle
 }
 void main() {
-  float distance = distanceTo(vPlace);
+  float distance = min(distanceTo(vPlace), distanceToPoint(vPlace));
   float border = vShape < 3.5 ? 1.5 * pixelRatio : 0.0;
   float alpha = clamp(border + 0.5 - distance, 0.0, 1.0) * vColor.a;
   if (alpha < 0.004) discard;
@@ -120,9 +128,9 @@ export const CIRCLE = 4;
 /** The color around a mark. */
 export const outline = { value: [1, 1, 1] };
 
-/** Marks: center, color with alpha, size in pixels, shape: 0 to 3, or CIRCLE. */
+/** Marks: center, color with alpha, size in pixels, shape: 0 to 3, or CIRCLE, heading: of length 1, or 0. */
 export function marks(order: number): Instances {
-  const layout = { center: 3, color: 4, size: 1, shape: 1 };
+  const layout = { center: 3, color: 4, size: 1, shape: 1, heading: 3 };
   return new Instances(layout, MARK_VERTEX, MARK_FRAGMENT, { outline }, order);
 }
 

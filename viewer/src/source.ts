@@ -22,13 +22,13 @@ export interface Source {
 
 export const FORMAT = 2;
 
-/** The run that the page itself holds; null if it holds none. */
-export function fileSource(): Source | null {
-  const run = jsonElement<Run>("gradysim-run");
+/** The run that a page holds, by default this one; null if it holds none. */
+export function fileSource(page = document): Source | null {
+  const run = jsonElement<Run>("gradysim-run", page);
   if (run === null) return null;
   if (run.format !== FORMAT) throw new Error(`a replay of format ${run.format}; expected format ${FORMAT}`);
   const chunks: PackedChunk[] = [];
-  for (const element of document.querySelectorAll("script.gradysim-chunk")) {
+  for (const element of page.querySelectorAll("script.gradysim-chunk")) {
     try {
       chunks.push(new PackedChunk(element.textContent ?? ""));
     } catch (error) {
@@ -36,7 +36,7 @@ export function fileSource(): Source | null {
       break;
     }
   }
-  const end = jsonElement<RunEnd>("gradysim-end");
+  const end = jsonElement<RunEnd>("gradysim-end", page);
   return { run, chunks, end, isLive: false, follows: false, isLost: end === null, onChange: null, tell: () => {} };
 }
 
@@ -59,8 +59,8 @@ export function openSocket(path: string): WebSocket {
   return new WebSocket(`ws://${location.host}${path}`);
 }
 
-/** What an element of the page holds; null if there is none. */
-export function jsonElement<T>(id: string): T | null {
-  const element = document.getElementById(id);
+/** What an element of a page holds, by default of this one; null if there is none. */
+export function jsonElement<T>(id: string, page = document): T | null {
+  const element = page.getElementById(id);
   return element === null ? null : (JSON.parse(element.textContent ?? "") as T);
 }

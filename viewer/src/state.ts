@@ -12,13 +12,14 @@ export interface State {
   filter: string;
   isFollowing: boolean;
   labels: boolean;
+  legend: boolean;
   trails: boolean;
   /** Whether the sequence chart is open. */
   sequence: boolean;
 }
 
 /** What a button switches on and off. */
-export type Switch = "isFollowing" | "labels" | "trails" | "sequence";
+export type Switch = "isFollowing" | "labels" | "trails" | "legend" | "sequence";
 
 export class Store {
   private state: State = {
@@ -28,6 +29,7 @@ export class Store {
     filter: "",
     isFollowing: false,
     labels: true,
+    legend: window.innerWidth > 860,
     trails: true,
     sequence: false,
   };

@@ -65,6 +65,17 @@ export class Tally {
     }
   }
 
+  /** Return how many receptions have each outcome, of all or of a node; those not noticed if that can be told. */
+  sums(node: number | null): number[] {
+    const sums = new Array<number>(this.outcomes).fill(0);
+    const first = (node ?? 0) * this.outcomes;
+    const counts = node === null ? this.counts : this.counts.subarray(first, first + this.outcomes);
+    counts.forEach((count, place) => (sums[place % this.outcomes] += count));
+    const unnoticed = this.unnoticedAt(node);
+    if (unnoticed !== null && this.unnoticedOutcome >= 0) sums[this.unnoticedOutcome] = unnoticed;
+    return sums;
+  }
+
   /** Return how many receptions were not noticed, of all or of a node; null if that cannot be told. */
   unnoticedAt(node: number | null): number | null {
     if (!this.isWhole) return null;

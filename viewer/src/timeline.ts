@@ -9,10 +9,15 @@ const AXIS_PX = 18;
 /** Room for the names of the lanes. */
 const LEFT_PX = 50;
 
+/** The part of a run that is shown. Timelines may share it. */
+export interface Window {
+  fromNs: number;
+  /** 0: the end of the run. */
+  toNs: number;
+}
+
 export class Timeline {
   readonly element: HTMLCanvasElement;
-  private fromNs = 0;
-  private toNs = 0; // 0: the end of the run
   private hoverX: number | null = null;
   private bars = { frames: new Float64Array(0), lost: new Float64Array(0) };
 
@@ -20,6 +25,7 @@ export class Timeline {
     private readonly replay: Replay,
     private readonly seek: (timeNs: number) => void,
     private readonly redraw: () => void,
+    private readonly shown: Window = { fromNs: 0, toNs: 0 },
   ) {
     this.element = document.createElement("canvas");
     this.element.className = "timeline";
@@ -41,7 +47,7 @@ export class Timeline {
     });
     this.element.addEventListener("wheel", (event) => this.zoom(event), { passive: false });
     this.element.addEventListener("dblclick", () => {
-      [this.fromNs, this.toNs] = [0, 0];
+      Object.assign(this.shown, { fromNs: 0, toNs: 0 });
       this.redraw();
     });
   }
@@ -71,17 +77,17 @@ export class Timeline {
   /** The part of the run that is shown: it moves along with the clock. */
   private window(timeNs: number): [number, number] {
     const endNs = this.replay.durationNs;
-    if (this.toNs === 0) return [0, endNs];
-    const span = this.toNs - this.fromNs;
-    if (timeNs < this.fromNs || timeNs > this.toNs) {
-      this.fromNs = Math.min(Math.max(0, timeNs - span / 4), endNs - span);
-      this.toNs = this.fromNs + span;
+    if (this.shown.toNs === 0) return [0, endNs];
+    const span = this.shown.toNs - this.shown.fromNs;
+    if (timeNs < this.shown.fromNs || timeNs > this.shown.toNs) {
+      this.shown.fromNs = Math.min(Math.max(0, timeNs - span / 4), endNs - span);
+      this.shown.toNs = this.shown.fromNs + span;
     }
-    return [this.fromNs, this.toNs];
+    return [this.shown.fromNs, this.shown.toNs];
   }
 
   private timeAt(x: number): number {
-    const [fromNs, toNs] = this.toNs === 0 ? [0, this.replay.durationNs] : [this.fromNs, this.toNs];
+    const [fromNs, toNs] = this.shown.toNs === 0 ? [0, this.replay.durationNs] : [this.shown.fromNs, this.shown.toNs];
     const width = this.element.clientWidth - LEFT_PX;
     return fromNs + (Math.min(Math.max(0, x - LEFT_PX), width) / width) * (toNs - fromNs);
   }
@@ -89,12 +95,12 @@ export class Timeline {
   private zoom(event: WheelEvent): void {
     event.preventDefault();
     const endNs = this.replay.durationNs;
-    const [fromNs, toNs] = this.toNs === 0 ? [0, endNs] : [this.fromNs, this.toNs];
+    const [fromNs, toNs] = this.shown.toNs === 0 ? [0, endNs] : [this.shown.fromNs, this.shown.toNs];
     const at = this.timeAt(event.offsetX);
     const factor = Math.exp(Math.sign(event.deltaY) * 0.25);
     const span = Math.min(endNs, Math.max(1e6, (toNs - fromNs) * factor));
-    this.fromNs = Math.min(Math.max(0, at - ((at - fromNs) / (toNs - fromNs)) * span), endNs - span);
-    this.toNs = span >= endNs ? 0 : this.fromNs + span;
+    this.shown.fromNs = Math.min(Math.max(0, at - ((at - fromNs) / (toNs - fromNs)) * span), endNs - span);
+    this.shown.toNs = span >= endNs ? 0 : this.shown.fromNs + span;
     this.redraw();
   }
 

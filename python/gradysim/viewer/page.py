@@ -22,7 +22,7 @@ def snapshot_page() -> str:
 
 
 def page_beside(socket: str, replays: Mapping[str, str]) -> str:
-    """Return a page that shows several replays beside each other, on one clock: {address: title}."""
+    """Return a page that shows several replays side by side: {address: name}."""
     return _page_with("gradysim-beside", {"socket": socket, "replays": replays})
 
 

@@ -304,7 +304,7 @@ class PageServer:
             page = None
         if page is None:
             return respond(connection, HTTPStatus.NOT_FOUND)
-        return respond_with_page(connection, page)
+        return respond_with_page(connection, page, is_sandboxed=path != "/")
 
     async def _meet(self, connection: "ServerConnection") -> None:
         """Serve one viewer until it leaves."""

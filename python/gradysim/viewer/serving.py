@@ -74,11 +74,16 @@ def respond(connection: Any, status: HTTPStatus, location: str | None = None) ->
     return response
 
 
-def respond_with_page(connection: Any, page: bytes) -> "Response":
-    """Return the response that holds a page."""
+def respond_with_page(connection: Any, page: bytes, *, is_sandboxed: bool = False) -> "Response":
+    """Return the response that holds a page.
+
+    If it is sandboxed, its scripts cannot reach the other pages of the server: it may be a file of others.
+    """
     response: Response = connection.respond(HTTPStatus.OK, "")
     response.body = page
     for name, value in (("Content-Type", "text/html; charset=utf-8"), ("Content-Length", str(len(page)))):
         del response.headers[name]
         response.headers[name] = value
+    if is_sandboxed:
+        response.headers["Content-Security-Policy"] = "sandbox allow-scripts allow-downloads"
     return response
