@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from gradysim.integrated.calibration import Calibration
+    from gradysim.scenario.scenario import Scenario
 
 
 BAR_WIDTH = 40
@@ -26,8 +27,17 @@ def calibrate_power(
     *,
     config: ConfigOption = "General",
     range_text: Annotated[
-        str, Parameter(name="--range", allow_leading_hyphen=True, help="The wanted range, such as 50m.")
-    ],
+        str | None,
+        Parameter(name="--range", allow_leading_hyphen=True, help="The wanted range, such as 50m."),
+    ] = None,
+    measurements: Annotated[
+        Path | None,
+        Parameter(
+            name="--from",
+            help="Fit path loss and shadowing instead: a CSV file of measured powers with the columns"
+            " distance_m and rssi_dbm.",
+        ),
+    ] = None,
     ratio: Annotated[float, Parameter(help="Ratio of frames received at that range.")] = 0.5,
     message: Annotated[
         str, Parameter(allow_leading_hyphen=True, help="Length of the message in a frame.")
@@ -45,7 +55,7 @@ def calibrate_power(
     ] = None,
     settings: SetOption = (),
 ) -> int:
-    """Find the transmission power for a wanted range under the models of a configuration."""
+    """Find the transmission power for a wanted range, or the path loss for measured powers."""
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigError
@@ -59,6 +69,12 @@ def calibrate_power(
             raise ConfigError(
                 f"--ratio {ratio:g}: it is out of range; expected more than 0 and less than 1{hint}"
             )
+        if (range_text is None) == (measurements is None):
+            raise ConfigError("calibrate: expected either --range or --from")
+        if measurements is not None:
+            print(_text_of_fit(scenario, measurements, sender, receiver))
+            return OK
+        assert range_text is not None
         if picture is not None:
             check_picture(picture)
         found = calibrate(
@@ -78,6 +94,29 @@ def calibrate_power(
     except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as mistake:
         return say_mistake(mistake)
     return OK
+
+
+def _text_of_fit(scenario: "Scenario", file: Path, sender: str | None, receiver: str | None) -> str:
+    from gradysim.integrated.calibration import pair_of
+    from gradysim.integrated.fitted_path_loss import fit_path_loss, read_measurements
+
+    fitted = fit_path_loss(scenario, read_measurements(file), *pair_of(scenario, sender, receiver))
+    alpha, loss, deviation = fitted.alpha, fitted.loss_db, fitted.deviation_db
+    lines = [
+        f"{fitted.measurements} measurements, {fitted.nearest_m:g} m to {fitted.farthest_m:g} m; in brackets"
+        " what 95 % of such intervals contain",
+        "",
+        '    *.radioMedium.pathLoss.typename = "FreeSpacePathLoss"',
+        f"    *.radioMedium.pathLoss.alpha = {alpha.value:.2f}   # {alpha.low:.2f} to {alpha.high:.2f}",
+        f"    *.radioMedium.pathLoss.systemLoss = {max(loss.value, 0):.1f}dB"
+        f"   # {loss.low:.1f} to {loss.high:.1f}",
+        f"    *.radioMedium.shadowing.standardDeviation = {deviation.value:.1f}dB"
+        f"   # {deviation.low:.1f} to {deviation.high:.1f}",
+    ]
+    if loss.value < 0:
+        above = f"The powers are {-loss.value:.1f} dB above those of the file"
+        lines += ["", f"{above}: raise `transmitter.power` or `antenna.gain`."]
+    return "\n".join(lines)
 
 
 def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> str:

@@ -220,6 +220,14 @@ def link_budget(scenario: Scenario, sender: NodeSpec, receiver: NodeSpec, messag
     return budget
 
 
+def pair_of(scenario: Scenario, sender: str | None, receiver: str | None) -> tuple[NodeSpec, NodeSpec]:
+    """Return the nodes of these names, with the named interface alone; see `calibrate`."""
+    from_node = _with_one_interface(*_interface_named(scenario.nodes, sender, "sender"))
+    if receiver is None:
+        return from_node, from_node
+    return from_node, _with_one_interface(*_interface_named(scenario.nodes, receiver, "receiver"))
+
+
 def _interface_named(nodes: Sequence[NodeSpec], name: str | None, role: str) -> tuple[NodeSpec, int]:
     """Return the node and the index of its interface: `relay` is `relay.wlan[0]`."""
     if name is None:

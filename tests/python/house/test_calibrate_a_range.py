@@ -1,6 +1,7 @@
 """The output in docs/how-to/calibrate-a-range.md is the output of the command."""
 
 import re
+import shlex
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -26,12 +27,28 @@ def test_the_command_prints_what_it_shows(
     capsys: pytest.CaptureFixture[str],
     shows: Callable[..., None],
 ) -> None:
-    (command,) = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
+    command, _ = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
     monkeypatch.chdir(root)
     assert main(command.split()) == 0
     printed = capsys.readouterr().out
     shows("docs/how-to/calibrate-a-range.md", printed, part=True)
     assert "   100 m     0.00 %" in printed
+
+
+def test_its_measurements_are_fitted_as_it_shows(
+    root: Path,
+    guide: str,
+    code_blocks: Callable[[str, str], list[str]],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    shows: Callable[..., None],
+) -> None:
+    _, command = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
+    powers = tmp_path / "powers.csv"
+    powers.write_text(code_blocks("docs/how-to/calibrate-a-range.md", "text")[1])
+    arguments = shlex.split(command.replace("powers.csv", str(powers)).replace("configs", f"{root}/configs"))
+    assert main(arguments) == 0
+    shows("docs/how-to/calibrate-a-range.md", capsys.readouterr().out, 2)
 
 
 def test_without_matplotlib_a_picture_is_a_mistake_that_says_how_to_get_it(
