@@ -27,13 +27,13 @@ CONFIGS = ROOT / "configs"
 
 
 def pictures(
-    folder: Path, file: Path, config: str, limit: str, address: str, times_s: Sequence[float]
+    folder: Path, file: Path, config: str, limit: str, address: str, times_s: Sequence[float], scale: int = 1
 ) -> list[Image.Image]:
     """Run a configuration, and return what its replay shows at those times."""
     scenario, *_ = load_scenarios(file, config, overrides=[f"sim-time-limit={limit}"])
     replay = folder / "replay.html"
     IntegratedRun(scenario, replay=ReplayWriter(replay)).execute()
-    return film(folder, replay, address, times_s)
+    return film(folder, replay, address, times_s, scale=scale)
 
 
 def film(
@@ -87,13 +87,14 @@ def save(picture: Image.Image, name: str) -> None:
 
 
 def draw_film(folder: Path) -> None:
-    """Draw the film of the README: reports that collide, and then with a random wait."""
+    """Draw the film of a guide: reports that collide, and then with a random wait."""
     main(["new", str(folder / "swarm")])
     frames: list[Image.Image] = []
     for config in ("General", "Jittered"):
         times_s = [13.9 + 0.08 * number for number in range(16)]
-        frames += pictures(folder, folder / "swarm/swarm.ini", config, "30s", "#", times_s)
-    colors = frames[0].quantize(48, dither=Image.Dither.NONE)
+        frames += pictures(folder, folder / "swarm/swarm.ini", config, "30s", "#", times_s, scale=2)
+    fullest = max(frames, key=lambda frame: len(frame.getcolors(1 << 24) or []))
+    colors = fullest.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
     film = [frame.quantize(palette=colors, dither=Image.Dither.NONE) for frame in frames]
     film[0].save(HERE / "replay.gif", save_all=True, append_images=film[1:], duration=120, loop=0)
 
