@@ -80,7 +80,6 @@ export class Sequence {
       make("div", { class: "lanes" }),
     );
     this.element.lastElementChild?.append(this.picture);
-    this.element.hidden = true; // so that the first view of the run has its room
     new ResizeObserver(() => act.redraw()).observe(this.element);
     this.listen();
   }
