@@ -42,10 +42,10 @@ def test_nobody_hears_anything_in_integrated_mode(shown: Mapping[str, list[Any]]
     assert value(shown, "result")["text/html"].count("<td>0</td>") == 4
 
 
-def test_the_replay_is_a_frame_of_0_8_mb(shown: Mapping[str, list[Any]]) -> None:
+def test_the_replay_is_a_frame_of_0_85_mb(shown: Mapping[str, list[Any]]) -> None:
     frame = value(shown, "result.view()")["text/html"]
     assert frame.startswith("<iframe")
-    assert len(frame) / 1e6 == pytest.approx(0.8, abs=0.05)
+    assert len(frame) / 1e6 == pytest.approx(0.85, abs=0.05)
 
 
 def test_the_runs_are_listed(shown: Mapping[str, list[Any]]) -> None:
