@@ -9,7 +9,7 @@ import pytest
 
 from gradysim.cli.app import main
 from gradysim.replay.tables import NOT_LOST
-from python.viewing import watched
+from python.viewing import visited, watched
 
 
 @pytest.fixture
@@ -36,6 +36,10 @@ def test_its_commands_of_sh(text: str, folder: Path, shell: Callable[..., str]) 
         command = line.partition(" # ")[0].strip()
         if command.startswith("gradysim view hello.ini"):
             assert watched(command, folder)[0]["complete"]
+        elif (
+            command.startswith("gradysim view") and len(replays := list(folder.glob(command.split()[-1]))) > 1
+        ):
+            assert visited(" ".join(["gradysim view", *map(str, replays)]), folder) == 0
         else:
             shell(command.replace("gradysim view", "gradysim view --no-browser"), folder)
 
