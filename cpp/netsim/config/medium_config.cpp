@@ -71,8 +71,7 @@ constexpr Field fields[] = {
      "polarization of the antennas", with_two_ray},
     {NETSIM_FIELD(MediumConfig, inet_vertical_sign), "pathLoss.inetVerticalSign", boolean(),
      "whether the ground reflects vertical polarization with the opposite sign, as in INET: far away, the "
-     "rays "
-     "then add up instead of cancelling",
+     "rays then add up instead of cancelling",
      with_two_ray},
     {NETSIM_FIELD(MediumConfig, sigma_db), "pathLoss.sigma", number().at_least(0).at_most(40),
      "standard deviation in dB, as a plain number", with_shadowing},

@@ -25,7 +25,7 @@ struct MobilityConfig {
     double position_error_time_s = 175;
     double position_error_ratio = 2.3;
 
-    // Of QuadcopterMobility.
+    // Of vehicles with inertia.
     double acceleration_mps2 = 2.5;
     double drag_kgps = 0.3;
 

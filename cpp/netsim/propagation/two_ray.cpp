@@ -63,7 +63,7 @@ double TwoRay::interference_factor(const Position& a, const Position& b, double 
     const double bent = std::sqrt(std::max(epsilon_r_ - squared_cosine, 0.0));
     const double straight = is_vertical_ ? epsilon_r_ * sine : sine;
     if (straight + bent == 0) {
-        return 1;  // ε = 1: there is no ground
+        return 1;  // ε = 1: nothing reflects
     }
     const double reflection = sign_ * (straight - bent) / (straight + bent);
     return std::max(1 + reflection * (reflection + 2 * std::cos(phase)), 0.0);

@@ -71,6 +71,8 @@ def calibrate_power(
             )
         if (range_text is None) == (measurements is None):
             raise ConfigError("calibrate: expected either --range or --from")
+        if measurements is not None and picture is not None:
+            raise ConfigError("--from: there is no picture of a fit; expected no --picture")
         if measurements is not None:
             print(_text_of_fit(scenario, measurements, sender, receiver))
             return OK
@@ -103,8 +105,8 @@ def _text_of_fit(scenario: "Scenario", file: Path, sender: str | None, receiver:
     fitted = fit_path_loss(scenario, read_measurements(file), *pair_of(scenario, sender, receiver))
     alpha, loss, deviation = fitted.alpha, fitted.loss_db, fitted.deviation_db
     lines = [
-        f"{fitted.measurements} measurements, {fitted.nearest_m:g} m to {fitted.farthest_m:g} m; in brackets"
-        " what 95 % of such intervals contain",
+        f"{fitted.measurements:,} measurements, {fitted.nearest_m:g} m to {fitted.farthest_m:g} m; each value"
+        " has its interval of 95 %",
         "",
         '    *.radioMedium.pathLoss.typename = "FreeSpacePathLoss"',
         f"    *.radioMedium.pathLoss.alpha = {alpha.value:.2f}   # {alpha.low:.2f} to {alpha.high:.2f}",

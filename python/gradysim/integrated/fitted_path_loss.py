@@ -8,6 +8,7 @@ Statistics 9, 1938).
 """
 
 import csv
+import io
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -16,8 +17,10 @@ from pathlib import Path
 from gradysim.integrated.calibration import link_budget
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import medium_config, node_config
-from gradysim.scenario.errors import ConfigError
+from gradysim.results.durable import bytes_in
+from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.regular_files import check_regular
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.units import db_from_ratio, dbm_from_w
 
@@ -25,6 +28,12 @@ COLUMNS = ("distance_m", "rssi_dbm")
 
 _LIKELIHOOD = math.exp(3.841458820694124)
 """e to the 95 % quantile of the chi-square distribution with one degree of freedom."""
+
+_FARTHEST_M, _WEAKEST_DBM, _STRONGEST_DBM = 1e9, -300.0, 100.0
+"""Bounds of what may have been measured."""
+
+_SHOWN = 40
+"""Letters of a wrong value in a message."""
 
 _LEAST = 3
 """Measurements, at two distances or more: fewer leave no deviation."""
@@ -63,14 +72,16 @@ class FittedPathLoss:
 def read_measurements(file: Path) -> list[tuple[float, float]]:
     """Return (distance in m, received power in dBm) of each line of a CSV file with these columns.
 
-    Raises ConfigError, with file and line, for what is no measurement, and OSError.
+    Raises ConfigError, with the file and mostly the line, for anything else, and OSError.
     """
-    with file.open(encoding="utf-8", newline="") as lines:
-        reader = csv.DictReader(lines)
+    reader = csv.DictReader(io.StringIO(_text_in(file), newline=""))
+    try:
         missing = [name for name in COLUMNS if name not in (reader.fieldnames or ())]
         if missing:
             raise ConfigError(f"{file}:1: no column `{missing[0]}`", expected=f"`{','.join(COLUMNS)}`")
         found = [_measurement(file, reader.line_num, row) for row in reader]
+    except csv.Error as error:
+        raise ConfigError(f"{file}:{reader.line_num + 1}: {error}", expected="a CSV file") from error
     if len(found) < _LEAST or len({distance_m for distance_m, _ in found}) == 1:
         raise ConfigError(
             f"{file}: {len(found)} measurements at {len({distance_m for distance_m, _ in found})} distances",
@@ -79,21 +90,35 @@ def read_measurements(file: Path) -> list[tuple[float, float]]:
     return found
 
 
+def _text_in(file: Path) -> str:
+    try:
+        check_regular(file)
+        return bytes_in(file).decode("utf-8-sig")
+    except BadValue as error:
+        raise ConfigError(error.problem, expected=error.expected) from None
+    except UnicodeDecodeError as error:
+        raise ConfigError(f"{file}: it is not UTF-8", expected="a CSV file") from error
+
+
 def _measurement(file: Path, line: int, row: dict[str, str | None]) -> tuple[float, float]:
     distance_m, rssi_dbm = (_number(file, line, name, row[name]) for name in COLUMNS)
-    if not distance_m > 0:
-        raise ConfigError(f"{file}:{line}: distance_m = {distance_m:g}", expected="more than 0")
+    if not 0 < distance_m <= _FARTHEST_M:
+        raise ConfigError(
+            f"{file}:{line}: distance_m = {distance_m:g}", expected=f"more than 0, at most {_FARTHEST_M:g}"
+        )
+    if not _WEAKEST_DBM <= rssi_dbm <= _STRONGEST_DBM:
+        raise ConfigError(
+            f"{file}:{line}: rssi_dbm = {rssi_dbm:g}", expected=f"{_WEAKEST_DBM:g} to {_STRONGEST_DBM:g}"
+        )
     return distance_m, rssi_dbm
 
 
 def _number(file: Path, line: int, name: str, text: str | None) -> float:
     try:
-        number = float(text or "")
+        return float(text or "")
     except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise ConfigError(f"{file}:{line}: {name} = `{text or ''}`", expected="a number")
-    return number
+        written = (text or "")[:_SHOWN]
+        raise ConfigError(f"{file}:{line}: {name} = `{written}`", expected="a number") from None
 
 
 def fit_path_loss(
@@ -101,7 +126,8 @@ def fit_path_loss(
 ) -> FittedPathLoss:
     """Fit path loss to measurements between two nodes, with the power and the antennas of the scenario.
 
-    `measured` is as `read_measurements` returns it. Raises ConfigError if the scenario has no powers.
+    `measured` is as `read_measurements` returns it. Raises ConfigError if the scenario has no powers, or if
+    the measured ones do not fall with the distance.
     """
     link_budget(scenario, sender, receiver, 0)  # it has powers, and they are valid
     medium = medium_config(scenario)
@@ -117,6 +143,8 @@ def fit_path_loss(
     mean_x, mean_y = math.fsum(tenths) / count, math.fsum(losses) / count
     spread = math.fsum((x - mean_x) ** 2 for x in tenths)
     alpha = math.fsum((x - mean_x) * (y - mean_y) for x, y in zip(tenths, losses, strict=True)) / spread
+    if alpha <= 0:
+        raise ConfigError("the measured powers do not fall with the distance", expected="powers that do")
     loss_db = mean_y - alpha * mean_x
     rest = math.fsum((y - loss_db - alpha * x) ** 2 for x, y in zip(tenths, losses, strict=True))
     # The likelihood of another alpha or loss, with the others at their best, falls with the sum of squares.

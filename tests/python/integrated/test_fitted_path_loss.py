@@ -1,5 +1,7 @@
 """Path loss that is fitted to powers drawn from a known one."""
 
+import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -70,16 +72,42 @@ def test_its_intervals_contain_the_truth(
         ("distance_m,rssi_dbm\n5\n", 2),
         ("distance_m,rssi_dbm\n5,nan\n", 2),
         ("distance_m,rssi_dbm\n5,strong\n", 2),
+        ("distance_m,rssi_dbm\n5,1e308\n", 2),
+        ("distance_m,rssi_dbm\n1e300,-60\n", 2),
+        (f"distance_m,rssi_dbm\n5,{'1' * 200_000}\n", 2),
         ("distance_m,rssi_dbm\n5,-60\n5,-61\n5,-61\n", None),
+        (b"distance_m,rssi_dbm\n5,\xff\n", None),
     ],
 )
-def test_what_is_no_measurement_is_told_with_its_line(tmp_path: Path, text: str, line: int | None) -> None:
+def test_what_is_no_measurement_is_told_with_its_line(
+    tmp_path: Path, text: str | bytes, line: int | None
+) -> None:
     file = tmp_path / "powers.csv"
-    file.write_text(text)
+    file.write_bytes(text.encode() if isinstance(text, str) else text)
     with pytest.raises(ConfigError) as error:
         read_measurements(file)
+    assert len(str(error.value)) < 300
     place = f"{file}:{line}: " if line else f"{file}: "
     assert str(error.value).startswith(place)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="it has no named pipes")
+def test_a_pipe_is_refused(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "powers.csv")
+    with pytest.raises(ConfigError):
+        read_measurements(tmp_path / "powers.csv")
+
+
+def test_spreadsheets_begin_with_a_mark_of_the_encoding(tmp_path: Path) -> None:
+    file = tmp_path / "powers.csv"
+    file.write_text("\ufeffdistance_m,rssi_dbm\r\n5,-60\r\n10,-66\r\n20,-72\r\n", newline="")
+    assert read_measurements(file) == [(5, -60), (10, -66), (20, -72)]
+
+
+def test_powers_that_grow_with_the_distance_are_refused(make_scenario: Callable[..., Scenario]) -> None:
+    plain = make_scenario("class Tested(Quiet): pass", TRUTH[-1])
+    with pytest.raises(ConfigError):
+        fit_path_loss(plain, [(5, -80), (10, -66), (20, -62)], *pair_of(plain, None, None))
 
 
 def test_extra_columns_are_left_out(tmp_path: Path) -> None:
