@@ -32,7 +32,7 @@ export function warningOf(replay: Replay): string {
 }
 
 /** The facts of runs side by side, and their configuration files. */
-export function runDialog(replays: Replay[]): HTMLDialogElement {
+export function runDialog(replays: readonly Replay[]): HTMLDialogElement {
   const facts = replays.map(({ run }) => ({
     file: run.file,
     configuration: run.config,

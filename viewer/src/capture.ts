@@ -10,7 +10,7 @@ const FILM_BITS_PER_S = 16e6;
 const FRAMES_PER_S = 30;
 
 /** An element with canvases on top of each other, and what is written below. */
-interface Stage {
+export interface Stage {
   stage: HTMLElement;
   title: string;
 }
@@ -21,7 +21,7 @@ export class Capture {
 
   /** `draw` draws the canvases anew, `say` shows a message. */
   constructor(
-    private readonly stages: () => Stage[],
+    private readonly stages: () => readonly Stage[],
     private readonly clock: Clock,
     private readonly draw: () => Promise<void>,
     private readonly say: (text: string) => void,

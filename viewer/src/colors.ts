@@ -39,6 +39,12 @@ export function outcomeDash(name: string): number {
   return OUTCOMES[name]?.dash ?? 4;
 }
 
+/** Give an element, and what is in it, the color and the dashes of an outcome. */
+export function paintOutcome(element: HTMLElement, name: string): void {
+  element.style.setProperty("--color", outcomeColor(name));
+  element.style.setProperty("--dash", `${outcomeDash(name) || 100}px`);
+}
+
 /** "receiver locked": the words of the summary of a run. */
 export function outcomeWords(name: string): string {
   return name.replaceAll("_", " ");

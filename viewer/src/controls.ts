@@ -1,5 +1,6 @@
 // The buttons: what a run is, what is shown, play and steps. Keys do the same.
 
+import { Named } from "./address";
 import { Clock, SPEEDS } from "./clock";
 import { button, make, timeText } from "./dom";
 import { setText } from "./rows";
@@ -28,6 +29,18 @@ export interface Actions {
   focusFilter(): void;
   showRun(): void;
   showKeys(): void;
+}
+
+/** A list of all nodes, in which one can be chosen. */
+export function nodeChoice(nodes: readonly Named[], store: Store): HTMLSelectElement {
+  const names = nodes.map(({ id, name }) => make("option", { value: String(id) }, name));
+  const all = make("option", { value: "" }, "All nodes");
+  const choice = make("select", { "aria-label": "Node", title: "Choose a node" }, all, ...names);
+  choice.addEventListener("change", () => store.set({ node: choice.value === "" ? null : Number(choice.value) }));
+  store.onChange((changed) => {
+    if ("node" in changed) choice.value = String(changed.node ?? "");
+  });
+  return choice;
 }
 
 export class Controls {

@@ -1,6 +1,7 @@
 // What is known of the chosen node, or of all nodes, at the time of the clock.
 
-import { outcomeColor, outcomeDash, outcomeWords } from "./colors";
+import { outcomeWords, paintOutcome } from "./colors";
+import { nodeChoice } from "./controls";
 import { countText, distanceText, make, shareText, timeText } from "./dom";
 import { Replay } from "./replay";
 import { setText, showRows } from "./rows";
@@ -13,7 +14,6 @@ const MOST_EVENTS = 12;
 
 export class Inspector {
   readonly element = make("section", { "aria-label": "Inspector" });
-  private readonly choice = make("select", { "aria-label": "Node", title: "Choose a node" });
   private readonly facts = make("p", { class: "message" });
   private readonly outcomesTitle = make("h3", { class: "of-frames" });
   private readonly outcomes = make("div", { class: "outcomes of-frames" });
@@ -32,12 +32,6 @@ export class Inspector {
     pin: (node?: number) => void,
   ) {
     this.tracked = new Tracked(replay, store, seek, pin);
-    this.choice.append(make("option", { value: "" }, "All nodes"));
-    for (const node of replay.run.nodes)
-      this.choice.append(make("option", { value: String(node.id) }, node.name));
-    this.choice.addEventListener("change", () =>
-      store.set({ node: this.choice.value === "" ? null : Number(this.choice.value) }),
-    );
     for (const list of [this.neighbors, this.events])
       list.addEventListener("click", (event) => {
         const { node, time } = (event.target as Element).closest<HTMLElement>("button")?.dataset ?? {};
@@ -51,7 +45,7 @@ export class Inspector {
       this.events,
     );
     this.element.append(
-      make("div", { class: "row" }, make("h2", {}, "Node"), this.choice, this.tracked.pin),
+      make("div", { class: "row" }, make("h2", {}, "Node"), nodeChoice(replay.run.nodes, store), this.tracked.pin),
       this.facts,
       this.outcomesTitle,
       this.outcomes,
@@ -60,9 +54,7 @@ export class Inspector {
       this.ofNode,
     );
     store.onChange((changed) => {
-      if (!("node" in changed)) return;
-      this.choice.value = String(changed.node ?? "");
-      this.ofNode.hidden = changed.node == null;
+      if ("node" in changed) this.ofNode.hidden = changed.node == null;
     });
   }
 
@@ -110,8 +102,7 @@ export class Inspector {
       (element, { name, count }) => {
         setText(element.children[1], outcomeWords(name));
         setText(element.children[2], `${countText(count)} · ${shareText(count / total)}`);
-        element.style.setProperty("--color", outcomeColor(name));
-        element.style.setProperty("--dash", `${outcomeDash(name) || 100}px`);
+        paintOutcome(element, name);
         element.style.setProperty("--share", `${(100 * count) / total}%`);
       },
     );

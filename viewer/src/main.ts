@@ -2,6 +2,7 @@ import { App } from "./app";
 import { Files, showBeside } from "./beside";
 import { make } from "./dom";
 import { liveSource } from "./live";
+import { Replay } from "./replay";
 import { scriptInterface } from "./script";
 import { snapshotSource } from "./snapshots";
 import { fileSource, jsonElement } from "./source";
@@ -19,7 +20,7 @@ async function start(): Promise<void> {
     const source = await (liveSource() ?? snapshotSource() ?? fileSource());
     if (source === null) document.body.append(make("p", { class: "message" }, "This page holds no run."));
     else {
-      const app = new App(source);
+      const app = new App(new Replay(source));
       Object.assign(window, { gradysim: scriptInterface(app, app.replay) });
     }
   } catch (error) {
