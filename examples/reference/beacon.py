@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Beacon(IProtocol):
@@ -52,9 +51,6 @@ class Beacon(IProtocol):
     def handle_packet(self, message: str) -> None:
         """Count a message."""
         self._received += 1
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a beacon does not need its position."""
 
     def finish(self) -> None:
         """Track the counts."""

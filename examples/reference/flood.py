@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 _ORIGIN_TIMER = "flood"
 
@@ -80,9 +79,6 @@ class Flood(IProtocol):
         if hops < self.hop_limit:
             delay = self.provider.random.uniform(0, self.jitter)
             self.provider.schedule_timer(self._text(number, hops + 1), self.provider.current_time() + delay)
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: the position is not used."""
 
     def finish(self) -> None:
         """Track the counts."""

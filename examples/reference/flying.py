@@ -3,7 +3,6 @@
 from beacon import Beacon
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class FlyingBeacon(Beacon):
@@ -52,9 +51,6 @@ class FlyingSink(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Do nothing: there are no timers."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: the position is not used."""
 
     def finish(self) -> None:
         """Track the times."""

@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import CommunicationCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class SaturatingSource(IProtocol):
@@ -41,9 +40,3 @@ class SaturatingSource(IProtocol):
 
     def handle_packet(self, message: str) -> None:
         """Do nothing: a source does not receive messages."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a source does not need its position."""
-
-    def finish(self) -> None:
-        """Do nothing: the sink counts."""

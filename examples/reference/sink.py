@@ -1,7 +1,6 @@
 """A node that only counts what it receives."""
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Sink(IProtocol):
@@ -28,9 +27,6 @@ class Sink(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Do nothing: a sink has no timers."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a sink does not need its position."""
 
     def finish(self) -> None:
         """Track the counts."""

@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.random_mobility import RandomMobilityConfig, RandomMobilityPlugin
 
 
@@ -23,12 +22,6 @@ class Base(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Do nothing: a base has no timers."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a base does not need its position."""
-
-    def finish(self) -> None:
-        """Do nothing: the count is complete."""
 
 
 class Scout(IProtocol):
@@ -58,9 +51,3 @@ class Scout(IProtocol):
 
     def handle_packet(self, message: str) -> None:
         """Do nothing: scouts ignore the reports of others."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: the plugin handles telemetry."""
-
-    def finish(self) -> None:
-        """Do nothing."""

@@ -3,7 +3,6 @@
 from collections import Counter
 
 from gradysim.protocol.interface import IProtocol
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Collector(IProtocol):
@@ -24,9 +23,6 @@ class Collector(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Do nothing: a collector has no timers."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a collector does not need its position."""
 
     def finish(self) -> None:
         """Track the counts."""

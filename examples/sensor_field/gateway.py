@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Gateway(IProtocol):
@@ -29,9 +28,6 @@ class Gateway(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Do nothing: a gateway has no timers."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a gateway does not need its position."""
 
     def finish(self) -> None:
         """Track the count."""

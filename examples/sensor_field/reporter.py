@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Reporter(IProtocol):
@@ -45,9 +44,6 @@ class Reporter(IProtocol):
 
     def handle_packet(self, message: str) -> None:
         """Do nothing: a sensor does not receive messages."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """A sensor does not move."""
 
     def finish(self) -> None:
         """Show the count."""

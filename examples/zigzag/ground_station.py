@@ -3,7 +3,6 @@
 from custody import Custody
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 from heartbeat import HeartbeatClock
 from message import (
     GroundHeartbeat,
@@ -61,12 +60,6 @@ class ZigZagGroundStation(IProtocol):
                 self._send(PairConfirmation(sender=me, carrier=me, given=0), uav)
             case PairConfirmation(sender=uav, given=given):
                 self._take(uav, given)
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a ground station does not need its position."""
-
-    def finish(self) -> None:
-        """Do nothing: all results are tracked variables."""
 
     def _take(self, uav: int, given: int) -> None:
         if self._custody.take(uav, given):

@@ -8,7 +8,6 @@ Varying Degrees of Realism". Each lesson that the authors drew is a parameter he
 from custody import Custody
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.protocol.plugin.mission_mobility import (
     LoopMission,
     MissionMobilityConfiguration,
@@ -114,12 +113,6 @@ class ZigZagMobile(IProtocol):
             case PairConfirmation() as confirmation:
                 self._conclude(confirmation)
         self._track()
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: the mission plugin handles telemetry."""
-
-    def finish(self) -> None:
-        """Do nothing: all results are tracked variables."""
 
     def _launch(self) -> None:
         height = self.altitude + self.provider.get_id() * self.altitude_step

@@ -2,7 +2,6 @@
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 from message import SensorData, UavHeartbeat, decode, encode
 
 
@@ -29,9 +28,3 @@ class ZigZagSensor(IProtocol):
 
     def handle_timer(self, timer: str) -> None:
         """Do nothing: a sensor has no timers."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing: a sensor does not need its position."""
-
-    def finish(self) -> None:
-        """Do nothing: all results are tracked variables."""

@@ -6,7 +6,6 @@ from gradysim.protocol.messages.communication import (
     CommunicationCommand,
     SendMessageCommand,
 )
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class Sender(IProtocol):
@@ -34,9 +33,3 @@ class Sender(IProtocol):
 
     def handle_packet(self, message: str) -> None:
         """Ignore what others send."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do not look at positions."""
-
-    def finish(self) -> None:
-        """Leave nothing behind."""

@@ -4,7 +4,6 @@ from typing import Annotated
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.messages.communication import BroadcastMessageCommand, SendMessageCommand
-from gradysim.protocol.messages.telemetry import Telemetry
 
 
 class CommunicationProtocolBase(IProtocol):
@@ -39,12 +38,6 @@ class CommunicationProtocolBase(IProtocol):
 
     def handle_packet(self, message: str) -> None:
         """Do nothing."""
-
-    def handle_telemetry(self, telemetry: Telemetry) -> None:
-        """Do nothing."""
-
-    def finish(self) -> None:
-        """Do nothing: all results are tracked variables."""
 
     def _say(self, message: str, target: int | None) -> None:
         """From now on send `message` to `target`, or to all if that is None. Send it now if it is new."""
