@@ -1,14 +1,14 @@
 """Fixtures of the comparisons: they report findings, and with --verify they draw pictures."""
 
+import json
 import re
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
 
-from verification import field_row
-from verification.field_row import FieldRow
-from verification.finding import Finding, table
+from verification.finding import FieldRow, Finding, field_table, table
 
 _PAGES = Path(__file__).parents[2] / "docs" / "verification"
 _FIELD = _PAGES / "field.md"
@@ -45,7 +45,7 @@ def report(record_property: Callable[[str, object], None]) -> Callable[[Finding]
     """`report(finding)` records the finding, and fails the test if it does not agree."""
 
     def write_down(finding: Finding) -> None:
-        record_property("finding", finding.to_json())
+        record_property("finding", json.dumps(asdict(finding)))
         assert finding.agrees, str(finding)
 
     return write_down
@@ -61,7 +61,7 @@ def field(
     """
 
     def write_down(row: FieldRow) -> None:
-        record_property("field", row.to_json())
+        record_property("field", json.dumps(asdict(row)))
         if not request.config.getoption("--verify"):
             assert str(row) in _FIELD.read_text(encoding="utf-8").splitlines()
 
@@ -88,15 +88,15 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
         for report in terminalreporter.getreports(outcome)
         for name, value in report.user_properties
     ]
-    findings = [Finding.from_json(value) for name, value in properties if name == "finding"]
-    rows = [FieldRow.from_json(value) for name, value in properties if name == "field"]
+    findings = [Finding(**json.loads(value)) for name, value in properties if name == "finding"]
+    rows = [FieldRow(**json.loads(value)) for name, value in properties if name == "field"]
     terminalreporter.section("findings")
     for found in (*findings, *rows):
         terminalreporter.write_line(str(found))
     is_complete = not config.getoption("keyword") and len(config.args) == 1 and "::" not in config.args[0]
     if is_complete and Path(config.args[0]).resolve() == Path(__file__).parent:
         _write_table(_PAGES / "README.md", table(findings))
-        _write_table(_FIELD, field_row.table(rows))
+        _write_table(_FIELD, field_table(rows))
 
 
 def _write_table(page: Path, text: str) -> None:

@@ -1,7 +1,8 @@
-"""Result of one comparison, with its tolerance and the reason for the tolerance."""
+"""Results of comparisons: the rows of the tables in docs/verification."""
 
-import json
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
+
+AGREES, FITTED, DIFFERS = "agrees", "fitted", "**does not agree**"
 
 
 @dataclass(frozen=True)
@@ -29,17 +30,33 @@ class Finding:
         verdict = "agrees" if self.agrees else "**differs**"
         return f"| {self.comparison} | {self.number} | {self.tolerance} | {verdict} | {self.reason} |"
 
-    def to_json(self) -> str:
-        """Return the finding as JSON; the inverse of `from_json`."""
-        return json.dumps(asdict(self))
 
-    @classmethod
-    def from_json(cls, text: str) -> "Finding":
-        """Return the finding of a string made by `to_json`."""
-        return cls(**json.loads(text))
+@dataclass(frozen=True)
+class FieldRow:
+    """A row of the table in docs/verification/field.md: what was measured, and what the engine gives."""
+
+    row: str
+    quantity: str
+    measured: str
+    engine: str
+    fitted: str
+    """Parameter that was fitted to the measurement, and its value; "" for none."""
+    verdict: str
+    tolerance: str
+    source: str
+    """Number of its source on the page, and what the measurement does not say."""
+
+    def __str__(self) -> str:
+        return f"| {' | '.join(asdict(self).values())} |"
 
 
 def table(findings: list[Finding]) -> str:
     """Return the table as Markdown, in the given order."""
     head = "| comparison | measured | tolerance | verdict | why that tolerance |\n|---|---|---|---|---|\n"
     return head + "".join(f"{finding.row}\n" for finding in findings)
+
+
+def field_table(rows: list[FieldRow]) -> str:
+    """Return the table of published measurements as Markdown, in the given order."""
+    names = [field.name.replace("row", "") for field in fields(FieldRow)]
+    return "\n".join([f"| {' | '.join(names)} |", "|---" * len(names) + "|", *map(str, rows)]) + "\n"

@@ -16,7 +16,7 @@ from gradysim.motion.flight_controller import STEP_S, Airframe, FlightController
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.ini import PROFILES
-from verification.field_row import AGREES, DIFFERS, FITTED, FieldRow
+from verification.finding import AGREES, DIFFERS, FITTED, FieldRow
 
 Report = Callable[[FieldRow], None]
 

@@ -11,6 +11,7 @@ from gradysim.motion.flight_controller import STEP_S, Airframe, FlightController
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.prototype.simulation import airframe_of
 from gradysim.scenario.load import load_scenarios
+from verification.test_field import duration_s
 
 pytest.importorskip("gradysim._netsim")
 pytest.importorskip("matplotlib")
@@ -70,17 +71,6 @@ sim-time-limit = 1s
 *.n[*].protocol.typename = "SinkProtocol"
 include as_measured_copter.ini
 """
-
-
-def duration_s(leg_m: float, speed_mps: float, airframe: Airframe) -> float:
-    """Return the time until a vehicle is within 2 m of its target."""
-    vehicle = FlightController((0.0, 0.0, 10.0), speed_mps, WindAtVehicle(Wind(), 1, 0), airframe=airframe)
-    vehicle.go_to((leg_m, 0.0, 10.0))
-    steps = 0
-    while leg_m - vehicle.position[0] > 2:
-        vehicle.step()
-        steps += 1
-    return steps * STEP_S
 
 
 def flown_m(start_m: float, target_m: float, vehicle: FlightController) -> list[float]:

@@ -14,10 +14,10 @@ from gradysim.integrated.network_lint import lint_networks
 from gradysim.integrated.ranges import ranges_m
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.ini import PROFILES
+from verification.test_field import NOISE_DBM
 
 PAGE = "docs/how-to/model-my-radio.md"
 NODES = '\nsim-time-limit = 1s\n*.numN = 2\n*.n[*].protocol.typename = "SinkProtocol"\n'
-THERMAL_NOISE_DBM = 10 * math.log10(1.380649e-23 * 290 * 20e6 / 1e-3)
 
 
 @pytest.fixture
@@ -63,7 +63,7 @@ def test_its_levels_above_the_noise(
 
 
 def test_its_noise_figure(page: str) -> None:
-    assert round(THERMAL_NOISE_DBM) == -101
+    assert round(NOISE_DBM) == -101
     assert "-85 + 101 - 13.4 = 2.6 dB" in page
 
 
