@@ -1,4 +1,4 @@
-"""The command, the lines and the tables in docs/how-to/behave-as-ns3-or-inet.md are valid."""
+"""The lines and the tables in docs/how-to/behave-as-ns3-or-inet.md are valid."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -12,15 +12,6 @@ from gradysim.integrated.network_lint import lint_networks
 from gradysim.scenario import load_scenarios
 
 PAGE = "docs/how-to/behave-as-ns3-or-inet.md"
-
-
-def test_its_command_prints_what_it_shows(
-    root: Path,
-    code_blocks: Callable[[str, str], list[str]],
-    shell: Callable[[str, Path], str],
-    shows: Callable[..., None],
-) -> None:
-    shows(PAGE, shell(code_blocks(PAGE, "sh")[0], root), part=True)
 
 
 @pytest.mark.parametrize("config", ["AsNs3", "AsInet"])

@@ -1,4 +1,4 @@
-"""The output in docs/how-to/find-lost-frames.md is the output of the command."""
+"""The rows of docs/how-to/find-lost-frames.md in python are those of its summary."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -11,13 +11,6 @@ pytest.importorskip("gradysim._netsim")
 GUIDE = "docs/how-to/find-lost-frames.md"
 
 CodeBlocks = Callable[[str, str], list[str]]
-
-
-def test_its_tables_are_the_end_of_the_summary(
-    code_blocks: CodeBlocks, shell: Callable[[str, Path], str], shows: Callable[..., None], tmp_path: Path
-) -> None:
-    (commands,) = code_blocks(GUIDE, "sh")
-    shows(GUIDE, shell(commands, tmp_path), part=True)
 
 
 def test_its_rows_of_interference_are_those_of_the_summary(
