@@ -6,7 +6,7 @@ from gradysim.protocol.plugin.raft import RaftConfig, RaftConsensusPlugin, RaftM
 
 
 class Bully(IProtocol):
-    """Announces its id at the start; who hears no higher one in the next second takes the lead.
+    """Announces its id at the start, and takes the lead if it hears no higher one in the next second.
 
     Tracked variables:
         leads: 1 if this node takes itself for the leader, else 0.
