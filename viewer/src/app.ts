@@ -33,13 +33,7 @@ export class App extends Page {
       (node) => this.pin(node),
     );
     this.list = new FrameList(replay, this.store, (frame) => void this.chooseFrame(frame));
-    this.sequence = new Sequence(replay, {
-      choose: (frame) => void this.chooseFrame(frame),
-      chooseNode: (node) => this.store.set({ node }),
-      seek: (timeNs) => this.seek(timeNs),
-      redraw: () => this.redraw(),
-      close: () => this.store.set({ sequence: false }),
-    });
+    this.sequence = new Sequence(replay, this.store, this, (frame) => void this.chooseFrame(frame));
     this.leader = new View(replay, "The nodes in space", this);
     this.views = [this.leader];
     const { canvas, labels, overlay, timeline, details } = this.leader;

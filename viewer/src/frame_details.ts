@@ -3,7 +3,7 @@
 import { Interferer } from "./air";
 import { outcomeColor, outcomeWords } from "./colors";
 import { button, countText, distanceText, durationText, make, timeText } from "./dom";
-import { causeText, destinationText, messageOf, senderOf } from "./frame_text";
+import { causeText, messageOf, routeText, senderOf } from "./frame_text";
 import { between, farTexts, Loss, lossTexts, readLosses } from "./losses";
 import { Reception } from "./receptions";
 import { Frame, Replay, startOf } from "./replay";
@@ -89,7 +89,7 @@ function describe(
     make(
       "div",
       { class: "row" },
-      make("h2", {}, `${replay.nameOf(sender)} → ${destinationText(replay, frame)}`),
+      make("h2", {}, routeText(replay, frame)),
       make("span", { class: "end" }, button("✕", "Close (Esc)", close)),
     ),
     make("p", { class: "message" }, facts.join(" · ")),

@@ -8,9 +8,11 @@ export function senderOf({ chunk, row }: Frame): number {
   return chunk.frames.table.node[row];
 }
 
-export function destinationText(replay: Replay, { chunk, row }: Frame): string {
-  const destination = chunk.frames.table.destination[row];
-  return destination === BROADCAST ? "all" : replay.nameOf(destination);
+/** "uavs[0] → all" */
+export function routeText(replay: Replay, frame: Frame): string {
+  const destination = frame.chunk.frames.table.destination[frame.row];
+  const to = destination === BROADCAST ? "all" : replay.nameOf(destination);
+  return `${replay.nameOf(senderOf(frame))} → ${to}`;
 }
 
 /** The message of a frame; null if it has none, or if it was left out of the record. */

@@ -3,7 +3,7 @@
 import { outcomeColor, outcomeWords } from "./colors";
 import { make, timeText } from "./dom";
 import { Filter, KEYS } from "./filter";
-import { causeText, destinationText, messageOf, senderOf } from "./frame_text";
+import { causeText, messageOf, routeText } from "./frame_text";
 import { Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";
@@ -152,7 +152,7 @@ export class FrameList {
     const { table } = chunk.frames;
     const [time, who, cause, what] = element.children as HTMLCollectionOf<HTMLElement>;
     setText(time, timeText(startOf(frame)));
-    setText(who, `${this.replay.nameOf(senderOf(frame))} → ${destinationText(this.replay, frame)}`);
+    setText(who, routeText(this.replay, frame));
     const text = messageOf(frame)?.text.slice(0, SHOWN_CHARACTERS) ?? "";
     setText(cause, [causeText(this.replay, frame), text].filter(Boolean).join(": "));
     element.title = `${who.textContent}, ${cause.textContent}`;

@@ -5,11 +5,13 @@ import { Picture } from "./air";
 import { inkOn, isDark, outcomeColor, outcomeDash, outcomeWords, styleColor } from "./colors";
 import { button, durationText, make, timeText } from "./dom";
 import { Table } from "./format";
-import { causeText, destinationText, messageOf, senderOf } from "./frame_text";
+import { causeText, messageOf, routeText, senderOf } from "./frame_text";
 import { endOf, framesOf, lanesOf, MOST_FRAMES, overlap } from "./lanes";
 import { Chunk, Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText } from "./rows";
+import { Store } from "./state";
 import { countUntil } from "./variables";
+import { Reactions } from "./view";
 
 const AXIS_PX = 20;
 const LANE_PX = 36;
@@ -33,14 +35,6 @@ const SHOWN_CHARACTERS = 60;
 
 type Attributes = Record<string, string | number>;
 
-export interface Act {
-  choose(frame: Frame): void;
-  chooseNode(node: number): void;
-  seek(timeNs: number): void;
-  redraw(): void;
-  close(): void;
-}
-
 export class Sequence {
   readonly element = make("section", { class: "sequence", "aria-label": "Sequence chart", hidden: "" });
   private readonly picture = svg("svg", { role: "img" });
@@ -59,7 +53,9 @@ export class Sequence {
 
   constructor(
     private readonly replay: Replay,
-    private readonly act: Act,
+    private readonly store: Store,
+    private readonly page: Reactions,
+    private readonly choose: (frame: Frame) => void,
   ) {
     const zoom = (factor: number) => (): void => this.zoom(factor, this.gutter + this.width * 0.5);
     this.element.append(
@@ -74,13 +70,13 @@ export class Sequence {
           button("+", "Shorter time", zoom(0.5)),
           button("−", "Longer time", zoom(2)),
           button("Reset", "Show the chosen frame, or the clock (double click)", () => this.reset()),
-          button("✕", "Close (s)", () => act.close()),
+          button("✕", "Close (s)", () => store.set({ sequence: false })),
         ),
       ),
       make("div", { class: "lanes" }),
     );
     this.element.lastElementChild?.append(this.picture);
-    new ResizeObserver(() => act.redraw()).observe(this.element);
+    new ResizeObserver(() => page.redraw()).observe(this.element);
     this.listen();
   }
 
@@ -90,7 +86,7 @@ export class Sequence {
     if (this.element.hidden || this.picture.clientWidth === 0) return;
     this.moveWindow(picture);
     const { fromNs, spanNs, width, replay } = this;
-    const frames = framesOf(replay, fromNs, fromNs + spanNs, picture, this.act.redraw);
+    const frames = framesOf(replay, fromNs, fromNs + spanNs, picture, () => this.page.redraw());
     if (frames !== null) {
       const { node, frame, pinned } = state;
       const chunks = replay.chunks.length;
@@ -151,7 +147,7 @@ export class Sequence {
 
   private reset(): void {
     [this.isZoomed, this.lastFrame, this.lastNs, this.fromNs, this.spanNs] = [false, null, NaN, NaN, NaN];
-    this.act.redraw();
+    this.page.redraw();
   }
 
   private zoom(factor: number, x: number): void {
@@ -159,7 +155,7 @@ export class Sequence {
     const spanNs = Math.min(LONGEST_NS, Math.max(SHORTEST_NS, this.spanNs * factor));
     this.fromNs = at - ((at - this.fromNs) * spanNs) / this.spanNs;
     [this.spanNs, this.isZoomed] = [spanNs, true];
-    this.act.redraw();
+    this.page.redraw();
   }
 
   private listen(): void {
@@ -176,16 +172,16 @@ export class Sequence {
       isDragged = true;
       picture.setPointerCapture(pointerId);
       this.fromNs = down.fromNs - ((clientX - down.x) / this.width) * this.spanNs;
-      this.act.redraw();
+      this.page.redraw();
     });
     picture.addEventListener("click", (event) => {
       down = null;
       if (isDragged) return;
       const { frame, node } = (event.target as Element).closest<SVGElement>("[data-frame], [data-node]")?.dataset ?? {};
       const x = event.clientX - picture.getBoundingClientRect().left;
-      if (frame !== undefined) this.act.choose(this.frames[Number(frame)]);
-      else if (node !== undefined) this.act.chooseNode(Number(node));
-      else if (x > this.gutter) this.act.seek(this.timeAt(x));
+      if (frame !== undefined) this.choose(this.frames[Number(frame)]);
+      else if (node !== undefined) this.store.set({ node: Number(node) });
+      else if (x > this.gutter) this.page.seek(this.timeAt(x));
     });
     picture.addEventListener("dblclick", () => this.reset());
     picture.addEventListener(
@@ -196,7 +192,7 @@ export class Sequence {
         event.preventDefault();
         if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
           this.fromNs += (Math.sign(event.deltaX || event.deltaY) * this.spanNs) / 10;
-          this.act.redraw();
+          this.page.redraw();
         } else this.zoom(Math.exp(Math.sign(event.deltaY) * 0.25), x);
       },
       { passive: false },
@@ -286,7 +282,7 @@ export class Sequence {
         void chunk.table("events").then((read) => {
           if (this.events.size > 20) this.events.clear();
           this.events.set(chunk, read);
-          this.act.redraw();
+          this.page.redraw();
         });
       if (chunk.stored.header.start_ns < this.fromNs) break;
     }
@@ -381,8 +377,7 @@ export class Sequence {
     const message = messageOf(frame)?.text.slice(0, SHOWN_CHARACTERS);
     const what = [causeText(this.replay, frame), message].filter(Boolean).join(": ");
     const lasts = durationText(endOf(frame) - startOf(frame));
-    const who = `${this.replay.nameOf(senderOf(frame))} → ${destinationText(this.replay, frame)}`;
-    return `${who}, ${what}\n${timeText(startOf(frame), 9)} s for ${lasts}`;
+    return `${routeText(this.replay, frame)}, ${what}\n${timeText(startOf(frame), 9)} s for ${lasts}`;
   }
 }
 

@@ -19,7 +19,8 @@ export interface Shared {
   legendOf: readonly Replay[];
 }
 
-interface Reactions {
+/** What a part of the page asks of it. */
+export interface Reactions {
   seek(timeNs: number): void;
   redraw(): void;
   clearChoice(): void;
