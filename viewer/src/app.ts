@@ -26,12 +26,7 @@ export class App extends Page {
   constructor(readonly replay: Replay) {
     super([replay], replay.run.nodes);
     const { source } = replay;
-    this.inspector = new Inspector(
-      replay,
-      this.store,
-      (timeNs) => this.seek(timeNs),
-      (node) => this.pin(node),
-    );
+    this.inspector = new Inspector(replay, this.store, this);
     this.list = new FrameList(replay, this.store, (frame) => void this.chooseFrame(frame));
     this.sequence = new Sequence(replay, this.store, this, (frame) => void this.chooseFrame(frame));
     this.leader = new View(replay, "The nodes in space", this);

@@ -7,8 +7,10 @@ import { setText } from "./rows";
 import { State, Store, Switch } from "./state";
 import { Goal } from "./steps";
 
-/** What buttons and keys can do. */
+/** What buttons, keys and the parts of the page can ask of it. */
 export interface Actions {
+  /** Draw again soon. */
+  redraw(): void;
   playOrPause(): void;
   seek(timeNs: number): void;
   setSpeed(speed: number): void;

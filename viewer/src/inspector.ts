@@ -1,7 +1,7 @@
 // What is known of the chosen node, or of all nodes, at the time of the clock.
 
 import { outcomeWords, paintOutcome } from "./colors";
-import { nodeChoice } from "./controls";
+import { Actions, nodeChoice } from "./controls";
 import { countText, distanceText, make, shareText, timeText } from "./dom";
 import { Replay } from "./replay";
 import { setText, showRows } from "./rows";
@@ -28,15 +28,14 @@ export class Inspector {
   constructor(
     private readonly replay: Replay,
     private readonly store: Store,
-    seek: (timeNs: number) => void,
-    pin: (node?: number) => void,
+    page: Required<Pick<Actions, "seek" | "pin">>,
   ) {
-    this.tracked = new Tracked(replay, store, seek, pin);
+    this.tracked = new Tracked(replay, store, page);
     for (const list of [this.neighbors, this.events])
       list.addEventListener("click", (event) => {
         const { node, time } = (event.target as Element).closest<HTMLElement>("button")?.dataset ?? {};
         if (node) store.set({ node: Number(node) });
-        if (time) seek(Number(time));
+        if (time) page.seek(Number(time));
       });
     this.ofNode.append(
       this.neighborsTitle,

@@ -3,6 +3,7 @@
 
 import { Picture } from "./air";
 import { inkOn, isDark, outcomeColor, outcomeDash, outcomeWords, styleColor } from "./colors";
+import { Actions } from "./controls";
 import { button, durationText, make, timeText } from "./dom";
 import { Table } from "./format";
 import { causeText, messageOf, routeText, senderOf } from "./frame_text";
@@ -11,7 +12,6 @@ import { Chunk, Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText } from "./rows";
 import { Store } from "./state";
 import { countUntil } from "./variables";
-import { Reactions } from "./view";
 
 const AXIS_PX = 20;
 const LANE_PX = 36;
@@ -54,7 +54,7 @@ export class Sequence {
   constructor(
     private readonly replay: Replay,
     private readonly store: Store,
-    private readonly page: Reactions,
+    private readonly page: Actions,
     private readonly choose: (frame: Frame) => void,
   ) {
     const zoom = (factor: number) => (): void => this.zoom(factor, this.gutter + this.width * 0.5);

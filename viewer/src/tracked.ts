@@ -2,6 +2,7 @@
 
 import { Charts, Curve } from "./charts";
 import { groupColor } from "./colors";
+import { Actions } from "./controls";
 import { button, make, timeText } from "./dom";
 import { Replay } from "./replay";
 import { setText } from "./rows";
@@ -23,11 +24,10 @@ export class Tracked {
   constructor(
     private readonly replay: Replay,
     private readonly store: Store,
-    seek: (timeNs: number) => void,
-    pin: (node?: number) => void,
+    private readonly page: Required<Pick<Actions, "seek" | "pin">>,
   ) {
-    this.pin = button("Pin", "Keep the variables and the lane of this node (k)", () => pin());
-    this.charts = new Charts(seek, (timeS) => setText(this.title, `Tracked variables at ${timeText(timeS * 1e9, 3)} s`));
+    this.pin = button("Pin", "Keep the variables and the lane of this node (k)", () => page.pin());
+    this.charts = new Charts((timeNs) => page.seek(timeNs), (timeS) => setText(this.title, `Tracked variables at ${timeText(timeS * 1e9, 3)} s`));
     this.element.append(this.title, this.legend, this.note, this.charts.element);
     store.onChange((changed) => {
       if (!("node" in changed || "pinned" in changed)) return;
@@ -36,7 +36,7 @@ export class Tracked {
       this.element.hidden = !this.nodes.length;
       this.pin.hidden = node === null;
       this.pin.setAttribute("aria-pressed", String(node !== null && pinned.includes(node)));
-      this.legend.replaceChildren(...(pinned.length ? this.nodes : []).map((one, place) => this.nameOf(one, place, pin)));
+      this.legend.replaceChildren(...(pinned.length ? this.nodes : []).map((one, place) => this.nameOf(one, place)));
       void this.read();
     });
   }
@@ -57,12 +57,12 @@ export class Tracked {
     return [...new Set([...pinned, ...(node === null ? [] : [node])])];
   }
 
-  private nameOf(node: number, place: number, pin: (node: number) => void): HTMLElement {
+  private nameOf(node: number, place: number): HTMLElement {
     const name = this.replay.nameOf(node);
     const isPinned = this.store.now.pinned.includes(node);
     const { color, dash } = lineOf(place);
     const line = make("i", dash ? { class: "dashed" } : {});
-    const element = make("span", {}, line, name, ...(isPinned ? [button("✕", `Unpin ${name}`, () => pin(node))] : []));
+    const element = make("span", {}, line, name, ...(isPinned ? [button("✕", `Unpin ${name}`, () => this.page.pin(node))] : []));
     element.style.setProperty("--color", color());
     return element;
   }

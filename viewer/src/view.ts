@@ -2,6 +2,7 @@
 
 import { Picture } from "./air";
 import { Clock } from "./clock";
+import { Actions } from "./controls";
 import { make } from "./dom";
 import { Filter, parseFilter } from "./filter";
 import { FrameDetails } from "./frame_details";
@@ -19,13 +20,6 @@ export interface Shared {
   legendOf: readonly Replay[];
 }
 
-/** What a part of the page asks of it. */
-export interface Reactions {
-  seek(timeNs: number): void;
-  redraw(): void;
-  clearChoice(): void;
-}
-
 export class View {
   readonly canvas: HTMLCanvasElement;
   readonly labels = make("canvas", { class: "labels", "aria-hidden": "true" });
@@ -39,7 +33,7 @@ export class View {
   constructor(
     readonly replay: Replay,
     words: string,
-    private readonly page: Reactions,
+    private readonly page: Actions,
     shared?: Shared,
   ) {
     const redraw = (): void => page.redraw();
