@@ -6,8 +6,8 @@ import { countText, distanceText, make, shareText, timeText } from "./dom";
 import { Replay } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";
+import { countUntil } from "./tables";
 import { Tracked } from "./tracked";
-import { countUntil } from "./variables";
 
 const MOST_NEIGHBORS = 12;
 const MOST_EVENTS = 12;

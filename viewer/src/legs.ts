@@ -1,6 +1,7 @@
 // Where nodes are: the legs of a chunk, by node.
 
 import { Table } from "./format";
+import { firstNot, groupRows } from "./tables";
 
 export class Legs {
   /** Rows of node n: `rows[first[n]]` to `rows[first[n + 1] - 1]`, by time. */
@@ -59,28 +60,9 @@ export class Legs {
 
   private rowAt(node: number, timeNs: number): number {
     const first = this.first[node];
-    let low = first;
-    let high = this.first[node + 1];
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.table.time_ns[this.rows[middle]] <= timeNs) low = middle + 1;
-      else high = middle;
-    }
-    if (first === this.first[node + 1]) return -1;
-    return this.rows[Math.max(first, low - 1)];
+    const end = this.first[node + 1];
+    if (first === end) return -1;
+    const next = firstNot((place) => this.table.time_ns[this.rows[place]] <= timeNs, end, first);
+    return this.rows[Math.max(first, next - 1)];
   }
-}
-
-/** Sort rows by group and keep their order within a group. */
-export function groupRows(
-  groups: ArrayLike<number>,
-  count: number,
-): { first: Uint32Array; rows: Uint32Array } {
-  const first = new Uint32Array(count + 1);
-  for (let row = 0; row < groups.length; row += 1) first[groups[row] + 1] += 1;
-  for (let group = 0; group < count; group += 1) first[group + 1] += first[group];
-  const next = first.slice();
-  const rows = new Uint32Array(groups.length);
-  for (let row = 0; row < groups.length; row += 1) rows[next[groups[row]]++] = row;
-  return { first, rows };
 }

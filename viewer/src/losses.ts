@@ -5,6 +5,7 @@ import { distanceText } from "./dom";
 import { NO_POWER, Table } from "./format";
 import { senderOf } from "./frame_text";
 import { Frame, Replay } from "./replay";
+import { countUntil } from "./tables";
 
 /** Powers in dBm, gains in dB; null: none, or unknown. */
 export interface Loss {
@@ -124,14 +125,7 @@ function pathText({ sent, power, pathLoss, gains }: Loss, distance: string): str
 
 /** The rows of a table, sorted by frame, that belong to a frame. */
 function* rowsOf(table: Table, frame: number): Generator<number> {
-  let low = 0;
-  let high = table.frame.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (table.frame[middle] < frame) low = middle + 1;
-    else high = middle;
-  }
-  for (; low < table.frame.length && table.frame[low] === frame; low += 1) yield low;
+  for (let row = countUntil(table.frame, frame - 1); table.frame[row] === frame; row += 1) yield row;
 }
 
 /** The distance of two nodes when a frame began, in meters. */

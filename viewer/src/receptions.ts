@@ -2,7 +2,7 @@
 // last frame of the same sender and interface: each change holds from one of its frames until another one.
 
 import { BELOW_SENSITIVITY, Table } from "./format";
-import { groupRows } from "./legs";
+import { countUntil, firstNot, groupRows } from "./tables";
 
 export interface Reception {
   receiver: number;
@@ -61,14 +61,7 @@ export class Frames {
 
   /** Return how many frames began until a time, this instant included. */
   rowsUntil(timeNs: number): number {
-    let low = 0;
-    let high = this.count;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.table.time_ns[middle] <= timeNs) low = middle + 1;
-      else high = middle;
-    }
-    return low;
+    return countUntil(this.table.time_ns, timeNs);
   }
 
   /** Return what became of a frame at each receiver that noticed or lost it, by receiver. */
@@ -90,13 +83,9 @@ export class Frames {
   /** Add the outcomes of the first `rows` frames to `counts`: outcome o at node n is at n * outcomes + o. */
   addOutcomes(rows: number, counts: Float64Array, outcomes: number): void {
     for (let sender = 0; sender + 1 < this.changes.first.length; sender += 1) {
-      let frames = 0; // of this sender, among the first rows
-      let high = this.rows.first[sender + 1] - this.rows.first[sender];
-      while (frames < high) {
-        const middle = (frames + high) >> 1;
-        if (this.rows.rows[this.rows.first[sender] + middle] < rows) frames = middle + 1;
-        else high = middle;
-      }
+      const first = this.rows.first[sender];
+      // Of this sender, among the first rows.
+      const frames = firstNot((place) => this.rows.rows[first + place] < rows, this.rows.first[sender + 1] - first);
       for (let place = this.changes.first[sender]; place < this.changes.first[sender + 1]; place += 1) {
         const change = this.changes.rows[place];
         if (this.since[change] >= frames) break;

@@ -5,6 +5,7 @@ import { Legs } from "./legs";
 import { Look, plainLook } from "./look";
 import { Frames } from "./receptions";
 import { Source } from "./source";
+import { firstNot } from "./tables";
 import { Tally } from "./tally";
 import { Texts } from "./texts";
 
@@ -120,14 +121,8 @@ export class Replay {
   }
 
   chunkIndexAt(timeNs: number): number {
-    let low = 0;
-    let high = this.chunks.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (this.chunks[middle].header.start_ns <= timeNs) low = middle + 1;
-      else high = middle;
-    }
-    return Math.max(0, low - 1);
+    const next = firstNot((index) => this.chunks[index].header.start_ns <= timeNs, this.chunks.length);
+    return Math.max(0, next - 1);
   }
 
   /** Return the chunk if it is decoded. */

@@ -11,7 +11,7 @@ import { endOf, framesOf, lanesOf, MOST_FRAMES, overlap } from "./lanes";
 import { Chunk, Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText } from "./rows";
 import { Store } from "./state";
-import { countUntil } from "./variables";
+import { countUntil } from "./tables";
 
 const AXIS_PX = 20;
 const LANE_PX = 36;

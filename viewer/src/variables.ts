@@ -1,6 +1,7 @@
 // The tracked variables of a node over the whole run, and its events.
 
 import { Replay } from "./replay";
+import { countUntil } from "./tables";
 
 export interface Series {
   name: string;
@@ -56,18 +57,6 @@ export async function readOn(replay: Replay, history: History, isWanted: () => b
           text: strings[happened.text[row]],
         });
   }
-}
-
-/** Return how many of the sorted times are until a time, this one included. */
-export function countUntil(times: ArrayLike<number>, time: number): number {
-  let low = 0;
-  let high = times.length;
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (times[middle] <= time) low = middle + 1;
-    else high = middle;
-  }
-  return low;
 }
 
 /** Return the value at a time as text. */
