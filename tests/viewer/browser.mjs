@@ -4,6 +4,7 @@
 // {url} for a page with two replays. `values` are expressions.
 // `within` is how far a pixel's color may be from `color`, summed over red, green and blue (default 40).
 // With `picture`, `screenshot` or `color` it draws the page, which takes seconds.
+// With `is_broken`, the page shows no run, but the text `until`.
 // `url` instead of `file`, the time `after` which to look, `pause`, and `kill`, [pid, signal], are for a run that goes on.
 // Writes one object to standard output.
 import { readFileSync } from "node:fs";
@@ -32,7 +33,8 @@ page.on("request", (request) => {
 
 const opened = performance.now();
 await page.goto(asked.url ?? `file://${asked.file}${asked.address ?? ""}`);
-await look();
+if (asked.is_broken) await shows(asked.until);
+else await look();
 await browser.close();
 process.stdout.write(JSON.stringify(said));
 

@@ -1,8 +1,11 @@
 """The page that shows two replays side by side, in a browser."""
 
+import shutil
+
 import pytest
 
 from gradysim.replay import read_replay
+from gradysim.replay.beside import ReplaysBeside
 from viewer.conftest import state, viewing
 
 TABLE = """[...document.querySelectorAll(".differences tr")].map(
@@ -112,3 +115,23 @@ def test_scripts_of_replays_are_not_executed(beside, collisions, reports, tmp_pa
     assert said["values"]["harm"] == "undefined"
     assert said["values"]["table"][0][1] == "General #0"
     assert all("Content Security Policy" in line for line in said["console"])
+
+
+def test_a_mistake_in_the_filter_of_an_address_is_shown(beside):
+    said = beside(
+        "#t=2&filter=sender:vehicles", values={"time": "document.querySelector('input.time').value"}
+    )
+    assert said["values"]["time"] == "2.000000"
+    assert "sender" in said["text"].partition("Node")[0]
+
+
+def test_a_replay_that_is_gone_or_damaged_is_named(collisions, browser, tmp_path):
+    gone, damaged = tmp_path / "gone.html", tmp_path / "damaged.html"
+    for file in (gone, damaged):
+        shutil.copy(collisions, file)
+    with ReplaysBeside([collisions, gone]) as server:
+        gone.unlink()
+        browser(None, url=server.address, is_broken=True, until="gone.html: ")
+    with ReplaysBeside([collisions, damaged]) as server:
+        damaged.write_text(damaged.read_text().replace('"format":2', '"format":1'))
+        browser(None, url=server.address, is_broken=True, until="damaged.html: ")

@@ -26,13 +26,23 @@ export interface Files {
 export async function showBeside({ socket, replays }: Files): Promise<Beside> {
   openSocket(socket);
   const files = Object.entries(replays).map(async ([address, name]) => {
-    const text = await (await fetch(address)).text();
-    const data = text.slice(text.indexOf("</style>") + 1); // Its styles would be reported, as they are not of this page.
-    const source = fileSource(new DOMParser().parseFromString(data, "text/html"));
-    if (source === null) throw new Error(`${name} holds no run`);
-    return { address, name, replay: new Replay(source) };
+    try {
+      return { address, name, replay: await replayAt(address) };
+    } catch (error) {
+      throw new Error(`${name}: ${(error as Error).message}`);
+    }
   });
   return new Beside(await Promise.all(files));
+}
+
+async function replayAt(address: string): Promise<Replay> {
+  const response = await fetch(address);
+  if (!response.ok) throw new Error("the file cannot be read anymore");
+  const text = await response.text();
+  const data = text.slice(text.indexOf("</style>") + 1); // Its styles would be reported, as they are not of this page.
+  const source = fileSource(new DOMParser().parseFromString(data, "text/html"));
+  if (source === null) throw new Error("it holds no run");
+  return new Replay(source);
 }
 
 /** One of the replays, with its title and its chosen frame. */

@@ -9,6 +9,9 @@ const FILM = "video/webm";
 const FILM_BITS_PER_S = 16e6;
 const FRAMES_PER_S = 30;
 
+/** The browser gets the film in parts, as it can keep them on the disk. */
+const PART_MS = 1000;
+
 /** An element with canvases on top of each other, and what is written below. */
 export interface Stage {
   stage: HTMLElement;
@@ -52,10 +55,10 @@ export class Capture {
       return;
     }
     sharpness.least = SHARP;
-    await this.draw();
     this.compose(this.film);
     const stream = this.film.captureStream(FRAMES_PER_S);
     const parts: Blob[] = [];
+    // Before the page is drawn, as the key may be pressed again until then.
     this.recorder = new MediaRecorder(stream, { mimeType: FILM, videoBitsPerSecond: FILM_BITS_PER_S });
     this.recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
     this.recorder.addEventListener("stop", () => {
@@ -64,7 +67,9 @@ export class Capture {
       this.download(new Blob(parts, { type: FILM }), "webm");
       void this.draw();
     });
-    this.recorder.start();
+    await this.draw();
+    this.compose(this.film);
+    this.recorder.start(PART_MS);
     await this.draw();
   }
 

@@ -4,7 +4,7 @@ Protocols may assign any object to a tracked variable. Results and viewers get p
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from numbers import Integral, Real
 from typing import Any
 
@@ -44,8 +44,8 @@ def plain_value(value: object, *, nan: str | None = None) -> object:
 
     Numbers and arrays of NumPy become Python numbers and lists, tuples become lists, keys become strings. NaN
     becomes `nan`. A value without a form in JSON becomes its `repr`: a set, an object of a user's class, an
-    infinity, a container inside itself. An integer of thousands of digits becomes a hexadecimal string, since
-    Python does not print it as a decimal number. Never raises.
+    infinity, a container inside itself. The items of a set are sorted. An integer of thousands of digits
+    becomes a hexadecimal string, since Python does not print it as a decimal number. Never raises.
     """
     return _plain(value, nan, ())
 
@@ -96,6 +96,14 @@ def _integer(number: int) -> int | str:
 
 def _representation(value: object) -> str:
     try:
+        if type(value) in (set, frozenset) and value:
+            return _set_representation(value)  # type: ignore[arg-type]
         return repr(value)
     except Exception:
         return object.__repr__(value)
+
+
+def _set_representation(value: Set[object]) -> str:
+    """Return the `repr` of a set with sorted items, whose order may otherwise differ between processes."""
+    items = ", ".join(sorted(map(_representation, value), key=lambda text: (len(text), text)))
+    return f"{{{items}}}" if type(value) is set else f"frozenset({{{items}}})"

@@ -36,10 +36,10 @@ LONGEST_MESSAGE_BYTES = 1000
 PORTS = range(65536)
 """Valid ports; 0 stands for any free one."""
 
-# Time limits in seconds of wall time: for the opening handshake or the download of a page, for a message,
-# between two pings, for the answer to a ping, for pending messages when the server ends, and for the closing
-# handshake.
-_HANDSHAKE_S = 10.0
+# Time limits in seconds of wall time: for the opening handshake or the download of a page, which may hold
+# hundreds of megabytes, for a message, between two pings, for the answer to a ping, for pending messages when
+# the server ends, and for the closing handshake.
+_DOWNLOAD_S = 600.0
 _MESSAGE_S = 20.0
 _PING_S = 10.0
 _PONG_S = 20.0
@@ -256,8 +256,8 @@ class PageServer:
             process_request=self._answer,
             create_connection=connect,  # type: ignore[arg-type]
             max_size=LONGEST_MESSAGE_BYTES,
-            open_timeout=_HANDSHAKE_S,
-            close_timeout=_HANDSHAKE_S,
+            open_timeout=_DOWNLOAD_S,
+            close_timeout=_DOWNLOAD_S,
             ping_interval=_PING_S,
             ping_timeout=_PONG_S,
             logger=silent_logger(__name__),

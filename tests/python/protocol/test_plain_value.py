@@ -1,6 +1,9 @@
 import enum
 import json
 import math
+import os
+import subprocess
+import sys
 from decimal import Decimal
 from enum import IntEnum
 from fractions import Fraction
@@ -37,6 +40,31 @@ def test_a_plain_value_stays_what_it_is(value):
 @pytest.mark.parametrize("number", [math.inf, -math.inf])
 def test_an_infinity_is_given_as_text(number):
     assert plain_value(number) == repr(number)
+
+
+@pytest.mark.parametrize("items", [range(20), ["b", "a", 10, 9], [frozenset("ab"), frozenset()]])
+@pytest.mark.parametrize("kind", [set, frozenset])
+def test_a_set_is_given_as_text_that_is_python(kind, items):
+    assert eval(plain_value(kind(items))) == kind(items)
+
+
+@pytest.mark.parametrize("kind", [set, frozenset])
+def test_an_empty_set_is_given_as_text(kind):
+    assert plain_value(kind()) == repr(kind())
+
+
+def test_the_text_of_a_set_does_not_depend_on_the_process():
+    code = "from gradysim.protocol.plain_value import plain_value; print(plain_value([{'b', 'aa', 'c', 3}]))"
+    texts = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "2", "3")
+    }
+    assert len(texts) == 1
 
 
 def test_a_fraction_too_large_for_a_float_is_given_as_text():
