@@ -34,8 +34,8 @@ def calibrate_power(
         Path | None,
         Parameter(
             name="--from",
-            help="Fit path loss and shadowing instead: a CSV file of measured powers with the columns"
-            " distance_m and rssi_dbm.",
+            help="Fit path loss and shadowing instead: a CSV file with the columns distance_m and rssi_dbm"
+            " (measured powers), or distance_m and delivered (0 or 1 for each frame).",
         ),
     ] = None,
     ratio: Annotated[float, Parameter(help="Ratio of frames received at that range.")] = 0.5,
@@ -55,7 +55,7 @@ def calibrate_power(
     ] = None,
     settings: SetOption = (),
 ) -> int:
-    """Find the transmission power for a wanted range, or the path loss for measured powers."""
+    """Find the transmission power for a wanted range, or the path loss for measured powers or deliveries."""
     from gradysim.integrated.calibration import calibrate
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigError
@@ -73,8 +73,9 @@ def calibrate_power(
             raise ConfigError("calibrate: expected either --range or --from")
         if measurements is not None and picture is not None:
             raise ConfigError("--from: there is no picture of a fit; expected no --picture")
+        message_bytes = int(option_value("--message", message, whole_bytes()))
         if measurements is not None:
-            print(_text_of_fit(scenario, measurements, sender, receiver))
+            print(_text_of_fit(scenario, measurements, sender, receiver, message_bytes))
             return OK
         assert range_text is not None
         if picture is not None:
@@ -83,7 +84,7 @@ def calibrate_power(
             scenario,
             range_m=float(option_value("--range", range_text, quantity("m", above=0))),
             ratio=ratio,
-            message_bytes=int(option_value("--message", message, whole_bytes())),
+            message_bytes=message_bytes,
             sender=sender,
             receiver=receiver,
         )
@@ -98,18 +99,28 @@ def calibrate_power(
     return OK
 
 
-def _text_of_fit(scenario: "Scenario", file: Path, sender: str | None, receiver: str | None) -> str:
+def _text_of_fit(
+    scenario: "Scenario", file: Path, sender: str | None, receiver: str | None, message_bytes: int
+) -> str:
     from gradysim.integrated.calibration import pair_of
     from gradysim.integrated.fitted_path_loss import fit_path_loss, read_measurements
 
-    fitted = fit_path_loss(scenario, read_measurements(file), *pair_of(scenario, sender, receiver))
-    alpha, loss, deviation = fitted.alpha, fitted.loss_db, fitted.deviation_db
+    pair = pair_of(scenario, sender, receiver)
+    fitted = fit_path_loss(scenario, read_measurements(file), *pair, message_bytes)
+    alpha, loss, deviation, half = fitted.alpha, fitted.loss_db, fitted.deviation_db, fitted.half_m
+    at_half = (
+        [f"half of the frames arrive at {half.value:.4g} m   # {half.low:.4g} to {half.high:.4g}"]
+        if half
+        else []
+    )
     lines = [
         f"{fitted.measurements:,} measurements, {fitted.nearest_m:g} m to {fitted.farthest_m:g} m; each value"
         " has its interval of 95 %",
+        *at_half,
         "",
         '    *.radioMedium.pathLoss.typename = "FreeSpacePathLoss"',
-        f"    *.radioMedium.pathLoss.alpha = {alpha.value:.2f}   # {alpha.low:.2f} to {alpha.high:.2f}",
+        f"    *.radioMedium.pathLoss.alpha = {alpha.value:.2f}   # "
+        + ("not fitted" if half else f"{alpha.low:.2f} to {alpha.high:.2f}"),
         f"    *.radioMedium.pathLoss.systemLoss = {max(loss.value, 0):.1f}dB"
         f"   # {loss.low:.1f} to {loss.high:.1f}",
         f"    *.radioMedium.shadowing.standardDeviation = {deviation.value:.1f}dB"

@@ -4,6 +4,7 @@ import math
 import re
 from collections.abc import Callable
 from pathlib import Path
+from random import Random
 
 import pytest
 
@@ -114,6 +115,35 @@ def test_where_the_noise_decides_the_promised_share_is_received(
     threshold = "**.radio.receiver.snirThreshold = -20dB"
     share = received(100.0, ratio, frames, *NOISE_DECIDES, threshold, f"**.wlan[*].bitrate = {mbps}Mbps")
     assert share == pytest.approx(ratio, abs=4.5 * standard_error)
+
+
+@pytest.mark.parametrize("decides", [(), NOISE_DECIDES], ids=["sensitivity", "noise"])
+def test_with_the_lines_of_measured_deliveries_half_arrive_at_the_fitted_distance(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], decides: tuple[str, ...]
+) -> None:
+    frames = 4000
+    random = Random(1)
+    distances = [random.uniform(10, 200) for _ in range(1000)]
+    lines = [f"{each},{int(random.gauss(0, 4) < 20 * math.log10(80 / each))}" for each in distances]
+    (tmp_path / "frames.csv").write_text("\n".join(["distance_m,delivered", *lines]), encoding="utf-8")
+    file = tmp_path / "pair.ini"
+    stop = f"*.sender.protocol.stop = {1 + 0.005 * (frames - 0.5)!r}s\nsim-time-limit = 22s"
+    file.write_text("\n".join([INI, *decides, stop]), encoding="utf-8")
+    options = f"--from {tmp_path}/frames.csv --sender sender --receiver receiver"
+    assert main(["calibrate", str(file), *options.split()]) == 0
+    printed = capsys.readouterr().out
+    (half_m,) = re.findall(r"^half of the frames arrive at (\S+) m", printed, re.MULTILINE)
+    assert float(half_m) == pytest.approx(80, rel=0.1)
+    found = re.findall(r"^    (\S+ = \S+)", printed, re.MULTILINE)
+    assert len(found) == 4
+    independent = "*.radioMedium.shadowing.decorrelationTime = 0s"
+    place = f"*.receiver.mobility.initialX = {half_m}m"
+    (scenario,) = load_scenarios(file, overrides=[*found, independent, place])
+    sender, receiver = (node.tracked_variables for node in run(scenario).nodes)
+    assert sender["sent"] == frames
+    # Printed to 0.1 dB, which is 0.05 / 4 standard deviations, at most 0.5 % of the frames.
+    tolerance = 0.005 + 4.5 * math.sqrt(0.25 / frames)
+    assert float(receiver["received"]) / frames == pytest.approx(0.5, abs=tolerance)
 
 
 @pytest.mark.parametrize(("range_m", "is_warned"), [(500, False), (500_000, True)])

@@ -27,7 +27,7 @@ def test_the_command_prints_what_it_shows(
     capsys: pytest.CaptureFixture[str],
     shows: Callable[..., None],
 ) -> None:
-    command, _ = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
+    command, *_ = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
     monkeypatch.chdir(root)
     assert main(command.split()) == 0
     printed = capsys.readouterr().out
@@ -35,6 +35,7 @@ def test_the_command_prints_what_it_shows(
     assert "   100 m     0.00 %" in printed
 
 
+@pytest.mark.parametrize(("number", "name"), [(1, "powers.csv"), (2, "frames.csv")])
 def test_its_measurements_are_fitted_as_it_shows(
     root: Path,
     guide: str,
@@ -42,13 +43,15 @@ def test_its_measurements_are_fitted_as_it_shows(
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
     shows: Callable[..., None],
+    number: int,
+    name: str,
 ) -> None:
-    _, command = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)
-    powers = tmp_path / "powers.csv"
-    powers.write_text(code_blocks("docs/how-to/calibrate-a-range.md", "text")[1])
-    arguments = shlex.split(command.replace("powers.csv", str(powers)).replace("configs", f"{root}/configs"))
+    command = re.findall(r"^```sh\ngradysim (.*)\n```", guide, re.MULTILINE)[number]
+    file = tmp_path / name
+    file.write_text(code_blocks("docs/how-to/calibrate-a-range.md", "text")[2 * number - 1])
+    arguments = shlex.split(command.replace(name, str(file)).replace("configs", f"{root}/configs"))
     assert main(arguments) == 0
-    shows("docs/how-to/calibrate-a-range.md", capsys.readouterr().out, 2)
+    shows("docs/how-to/calibrate-a-range.md", capsys.readouterr().out, 2 * number)
 
 
 def test_without_matplotlib_a_picture_is_a_mistake_that_says_how_to_get_it(
