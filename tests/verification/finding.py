@@ -57,6 +57,7 @@ def table(findings: list[Finding]) -> str:
 
 
 def field_table(rows: list[FieldRow]) -> str:
-    """Return the table of published measurements as Markdown, in the given order."""
+    """Return the table of published measurements as Markdown, by letter."""
+    rows = sorted(rows, key=lambda row: row.row)
     names = [field.name.replace("row", "") for field in fields(FieldRow)]
     return "\n".join([f"| {' | '.join(names)} |", "|---" * len(names) + "|", *map(str, rows)]) + "\n"

@@ -5,14 +5,17 @@ Each row says what the measurement does not: see the page. A row that does not a
 
 import math
 import statistics
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from operator import mul
 from pathlib import Path
 
 import pytest
 
-from gradysim.integrated.calibration import calibrate
-from gradysim.integrated.run import run
+from gradysim.integrated.calibration import calibrate, link_budget
+from gradysim.integrated.power_for_range import range_of
+from gradysim.integrated.run import IntegratedRun, run
 from gradysim.motion.flight_controller import STEP_S, Airframe, FlightController
+from gradysim.motion.position_error import POSITION_ERROR_TIME_S, position_error
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.ini import PROFILES
@@ -48,6 +51,34 @@ SENSITIVITIES_DBM: Mapping[str, Mapping[int, int]] = {
 FIELD_LEGS_S = {10.6: 5.39, 16.4: 7.01, 18.5: 7.53, 29.8: 10.25, 36.8: 11.79, 49.9: 14.64, 62.2: 17.25}
 TWIN_LEGS_S = {10.4: 3.68, 16.5: 4.83, 19.1: 5.27, 29.7: 6.74, 36.4: 7.54, 55.3: 9.58, 82.9: 12.38}
 """Means of the legs of a copter and of its autopilot in simulation: AERPAW Find-A-Rover, 2023."""
+
+POWERS_DBM: Mapping[int, Mapping[int, int]] = {
+    0: {5: -67, 10: -73, 15: -77, 20: -79},
+    5: {5: -64, 10: -71, 15: -74, 20: -75},
+    10: {5: -58, 10: -62, 15: -67, 20: -70},
+    15: {5: -52, 10: -61, 15: -65, 20: -68},
+    20: {5: -49, 10: -53, 15: -56, 20: -63},
+}
+"""Median power (dBm) by sending power (dBm) and distance (m): Pettorru, Pilloni, Martalò, MeditCom 2023."""
+
+ABOVE_FREE_SPACE = (
+    (40, 18, 1.77, 2.38),
+    (60, 18, 0.22, 2.56),
+    (80, 6, -3.15, 3.86),
+    (120, 1, -16.81, 0.0),
+    (140, 1, -4.27, 0.0),
+    (160, 2, 2.14, 0.77),
+)
+"""Distance from (m), points, mean and standard deviation (dB) of the power of a copter at 40 m, less that of
+free space and the mean of its flight: AERPAW Find-A-Rover, 2023."""
+
+HALF_ARRIVE_M = 275
+"""One way: of 410 broadcasts, 100 were answered, the square of 0.49. MeshNOW, range test."""
+
+REST_SD_M, REST_TIMES_S, REST_RATIOS = (1.0, 2.1), (90, 310), (2.2, 2.7)
+"""Of two receivers at rest in two logs under open sky: on a horizontal axis, and of z over it."""
+REST_LOG_S = 10_000
+"""The shorter one of the logs."""
 
 MESSAGE_B = 1000
 
@@ -212,6 +243,160 @@ def test_legs_in_the_field(field: Report) -> None:
             "[4]; fitted to every second leg, judged by the others",
         )
     )
+
+
+PAIR = """
+[General]
+sim-time-limit = 1s
+*.numN = 2
+*.n[*].protocol.typename = "SinkProtocol"
+"""
+
+
+def slope(pairs: Iterable[tuple[float, float]]) -> float:
+    """Return the exponent of the distance, of powers (dBm) by distance (m)."""
+    tenths, levels = zip(*((10 * math.log10(distance_m), -dbm) for distance_m, dbm in pairs), strict=True)
+    return statistics.linear_regression(tenths, levels).slope
+
+
+def test_power_over_distance(field: Report, loaded: Callable[..., Scenario]) -> None:
+    scenario = loaded(PAIR, "**.mobility.initialZ = 1.5m")
+    budget = link_budget(scenario, scenario.nodes[0], scenario.nodes[0], 0)
+    missing = {
+        sent_dbm: [
+            sent_dbm + 10 * math.log10(budget.mean_gain(distance_m)) - dbm
+            for distance_m, dbm in powers.items()
+        ]
+        for sent_dbm, powers in POWERS_DBM.items()
+    }
+    loss_db = statistics.mean(each for sent_dbm in (0, 10, 20) for each in missing[sent_dbm])
+    rest = [each - loss_db for sent_dbm in (5, 15) for each in missing[sent_dbm]]
+    level_db, sd = statistics.mean(rest), statistics.stdev(rest)
+    exponents = [slope(POWERS_DBM[sent_dbm].items()) for sent_dbm in POWERS_DBM]
+    engine = slope((d, 10 * math.log10(budget.mean_gain(d))) for d in POWERS_DBM[0])
+    agrees = min(exponents) <= engine <= max(exponents) and sd <= 2 and abs(level_db) <= 2.2
+    field(
+        FieldRow(
+            "D",
+            "power over distance, 1.5 m high, 5 m to 20 m, five sending powers",
+            f"exponent of the distance {min(exponents):.1f} to {max(exponents):.1f}",
+            f"{engine:.1f}; power {level_db:.1f} dB too high, standard deviation {sd:.1f} dB",
+            f"loss {loss_db:.1f} dB at both ends",
+            FITTED if agrees else DIFFERS,
+            "2 dB, as that of one series; level 2.2 dB, two standard deviations of the five",
+            "[6]; fitted to 0, 10 and 20 dBm, judged by 5 and 15 dBm",
+        )
+    )
+
+
+def spread_db(groups: Iterable[tuple[int, int, float, float]]) -> tuple[int, float]:
+    """Return the number of points, and their standard deviation about zero."""
+    groups = list(groups)
+    points = sum(count for _, count, _, _ in groups)
+    squares = sum(count * mean**2 + (count - 1) * sd**2 for _, count, mean, sd in groups)
+    return points, math.sqrt(squares / points)
+
+
+def test_air_to_ground(field: Report, loaded: Callable[..., Scenario], tmp_path: Path) -> None:
+    pytest.importorskip("scapy")
+    from scapy.layers.dot11 import RadioTap
+    from scapy.utils import PcapReader
+
+    _, all_db = spread_db(ABOVE_FREE_SPACE)
+    (_, near_db), (_, far_db) = spread_db(ABOVE_FREE_SPACE[:2]), spread_db(ABOVE_FREE_SPACE[2:])
+    _, sigma_db = spread_db(ABOVE_FREE_SPACE[::2])
+    points, measured_db = spread_db(ABOVE_FREE_SPACE[1::2])
+    scenario = loaded(
+        PAIR,
+        '*.n[0].protocol.typename = "BeaconProtocol"',
+        "*.n[0].protocol.interval = 10ms",
+        "sim-time-limit = 22s",
+        "*.n[0].mobility.initialZ = 40m",
+        "*.n[1].mobility.initialX = 60m",
+        "**.wlan[*].radio.receiver.sensitivity = -110dBm",
+        f"*.radioMedium.shadowing.standardDeviation = {sigma_db!r}dB",
+        "*.radioMedium.shadowing.decorrelationTime = 0s",
+    )
+    IntegratedRun(scenario, {1: tmp_path / "n.pcap"}).execute()
+    with PcapReader(str(tmp_path / "n.pcap")) as reader:
+        powers = [int(packet[RadioTap].dBm_AntSignal) for packet in reader]
+    flights = sorted(
+        statistics.pstdev(powers[start : start + points]) for start in range(0, len(powers) - points, points)
+    )
+    assert len(flights) >= 90
+    low, high = flights[len(flights) // 40], flights[-1 - len(flights) // 40]
+    field(
+        FieldRow(
+            "E",
+            "standard deviation from free space, a copter at 40 m to the ground, 42 m to 177 m",
+            f"{measured_db:.1f} dB of {points} points; {all_db:.1f} dB of all, {near_db:.1f} dB below 80 m,"
+            f" {far_db:.1f} dB beyond",
+            f"{low:.1f} dB to {high:.1f} dB for as many points",
+            f"shadowing {sigma_db:.1f} dB",
+            FITTED if low <= measured_db <= high else DIFFERS,
+            "95 % of the engine's flights",
+            "[4]; fitted to every second group of distances, judged by the others",
+        )
+    )
+
+
+def test_range_of_half_of_the_frames(field: Report, loaded: Callable[..., Scenario]) -> None:
+    def half_m(text: str = "") -> float:
+        lines = "**.mobility.initialZ = 1.2m", '**.wlan[*].opMode = "b"', "**.wlan[*].bitrate = 1Mbps"
+        scenario = loaded(PAIR + text, *lines)
+        return range_of(link_budget(scenario, scenario.nodes[0], scenario.nodes[0], 250), 0.1)
+
+    ground = '*.radioMedium.pathLoss.typename = "TwoRayGroundReflection"'
+    found_m = half_m(f"{ground}\ninclude as_measured_esp.ini\n")
+    field(
+        FieldRow(
+            "F",
+            "distance at which half of the broadcasts of 250 B arrive, ESP32 over a runway, 1 Mbps",
+            f"{HALF_ARRIVE_M} m",
+            f"{found_m:.0f} m; by default {half_m():.0f} m",
+            "",
+            AGREES if 0.5 <= found_m / HALF_ARRIVE_M <= 2 else DIFFERS,
+            "a factor of 2: the height is not known, and the range grows with it",
+            "[7]; `as_measured_esp.ini` with `TwoRayGroundReflection`, 1.2 m high",
+        )
+    )
+
+
+def test_position_error_at_rest(field: Report) -> None:
+    deviations, times_s, ratios = [], [], []
+    for node in range(12):
+        error = position_error(1, node, 1.5, POSITION_ERROR_TIME_S)
+        axes = list(zip(*(error.at(float(second)) for second in range(REST_LOG_S)), strict=True))
+        x, y, z = (statistics.pstdev(axis) for axis in axes)
+        deviations += [x, y]
+        times_s += [time_to_1_over_e_s(axes[0]), time_to_1_over_e_s(axes[1])]
+        ratios.append(2 * z / (x + y))
+    found = [statistics.median(each) for each in (deviations, times_s, ratios)]
+    is_near = all(
+        low <= each <= high
+        for each, (low, high) in zip(found, (REST_SD_M, REST_TIMES_S, REST_RATIOS), strict=True)
+    )
+    field(
+        FieldRow(
+            "K",
+            "position error of a receiver at rest: standard deviation, time to 1/e, z over a horizontal axis",
+            "1.0 m to 2.1 m; 94 s to 310 s, once 1,262 s; 2.2 to 2.7",
+            f"{found[0]:.1f} m, {found[1]:.0f} s, {found[2]:.1f}: medians of logs of 2.8 h",
+            "`positionError` 1.5 m, and the defaults of `positionErrorTime` and `positionErrorRatio`",
+            FITTED if is_near else DIFFERS,
+            "between the smallest and the largest of two receivers in two logs",
+            "[8]; fitted to the same logs, so it shows only that the engine keeps its parameters",
+        )
+    )
+
+
+def time_to_1_over_e_s(values: Sequence[float]) -> int:
+    """Return the lag at which the correlation of values, one per second, is below 1/e."""
+    mean = statistics.fmean(values)
+    rest = [value - mean for value in values]
+    power = sum(each * each for each in rest)
+    lags = range(10, len(rest), 10)
+    return next(lag for lag in lags if sum(map(mul, rest[lag:], rest)) < power / math.e)
 
 
 CELL = """

@@ -1,5 +1,6 @@
 """The picture of docs/verification/field.md."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -10,6 +11,7 @@ from verification.test_field import (
     CISCO_DB,
     FIELD_LEGS_S,
     NOISE_DBM,
+    POWERS_DBM,
     SENSITIVITIES_DBM,
     TWIN_LEGS_S,
     duration_s,
@@ -64,4 +66,17 @@ def draw(path: Path, levels_db: dict[int, float]) -> None:
         axes.set_title("legs of a copter: start and acceleration fitted", fontsize=9)
         axes.legend(fontsize=7.5)
 
-    save(path, "Engine (lines) and measurements (points)", bitrates, sensitivities, legs)
+    def powers(axes: "Axes") -> None:
+        distances_m = [4 * 1.03**step for step in range(60)]
+        for sent_dbm, measured in POWERS_DBM.items():
+            at_one_metre_dbm = sent_dbm - 13.5 - 20 * math.log10(4 * math.pi * 2.412e9 / 299_792_458)
+            engine = [at_one_metre_dbm - 20 * math.log10(distance_m) for distance_m in distances_m]
+            (line,) = axes.semilogx(distances_m, engine, lw=1.2, label=f"{sent_dbm} dBm")
+            axes.semilogx(list(measured), list(measured.values()), "o", color=line.get_color(), ms=4)
+        axes.set_xticks([5, 10, 15, 20], ["5", "10", "15", "20"], minor=False)
+        axes.xaxis.set_minor_formatter("")
+        axes.set(xlabel="distance (m)", ylabel="received power (dBm)")
+        axes.set_title("power over distance: one loss fitted to 0, 10, 20 dBm", fontsize=9)
+        axes.legend(fontsize=7.5)
+
+    save(path, "Engine (lines) and measurements (points)", bitrates, sensitivities, powers, legs, columns=2)
