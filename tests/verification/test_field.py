@@ -32,7 +32,6 @@ sim-time-limit = 1s
 *.n[*].protocol.typename = "SinkProtocol"
 *.radioMedium.backgroundNoise.typename = "ThermalNoise"
 **.wlan[*].radio.receiver.sensitivity = -120dBm
-**.wlan[*].radio.receiver.snirThreshold = -200dB
 """
 
 NOISE_DBM = 10 * math.log10(1.380649e-23 * 290 * 20e6 / 1e-3)
@@ -118,7 +117,7 @@ def test_level_at_which_half_of_the_frames_arrive(field: Report, loaded: Callabl
             "",
             AGREES if abs(levels[1] - 2.5) <= 0.8 else DIFFERS,
             "0.8 dB for 236 B, two standard deviations of the receivers",
-            "[1]; lengths and bitrate are likely, not sure; 4.2 dB by default, because of `snirThreshold`",
+            "[1]; lengths and bitrate are likely, not sure; 4.2 dB with INET's `snirThreshold`",
         )
     )
 
@@ -158,11 +157,14 @@ def test_sensitivities(field: Report, loaded: Callable[..., Scenario], device: s
     )
 
 
-@pytest.mark.parametrize("table", ["INET's", "ns-3's"])
-def test_80211b_needs_less_than_ofdm(field: Report, loaded: Callable[..., Scenario], table: str) -> None:
+@pytest.mark.parametrize("curves", ["the default", "INET's", "ns-3's"])
+def test_80211b_needs_less_than_ofdm(field: Report, loaded: Callable[..., Scenario], curves: str) -> None:
     lines = ['**.wlan[*].opMode = "b"', "**.wlan[*].radio.bandwidth = 20MHz"]
-    if table == "ns-3's":
+    if curves == "INET's":
+        lines += ['**.wlan[*].radio.receiver.errorModel.typename = "Ieee80211NistErrorModel"']
+    if curves == "ns-3's":
         lines += [
+            "**.wlan[*].radio.receiver.snirThreshold = -200dB",
             '**.wlan[*].radio.receiver.errorModel.typename = "Ieee80211BerTableErrorModel"',
             f'**.wlan[*].radio.receiver.errorModel.berTableFile = "{PROFILES}/ns3_error_rates.csv"',
         ]
@@ -172,7 +174,7 @@ def test_80211b_needs_less_than_ofdm(field: Report, loaded: Callable[..., Scenar
     field(
         FieldRow(
             "C",
-            f"what 1 and 11 Mbps of 802.11b need, above what 6 Mbps needs, with {table} curves",
+            f"what 1 and 11 Mbps of 802.11b need, above what 6 Mbps needs, with {curves} curves",
             "0 to 3 dB less, and 0 to 2 dB more (three devices)",
             f"{one:+.1f} dB and {eleven:+.1f} dB",
             "",

@@ -13,18 +13,14 @@ constexpr Field fields[] = {
 
 // An error model fits one modulation only. No errors fit all.
 void check_error_model(const std::string& interface_type, const std::string& error_model) {
-    const std::string own = RadioConfig(interface_type).error_model;
-    const bool is_80211 = interface_type == ieee80211_interface;
-    if (error_model.empty() || error_model == own || (is_80211 && error_model == ber_table_error_model)) {
+    const bool is_80211 = error_model.starts_with("Ieee80211");
+    if (error_model.empty() || is_80211 == (interface_type == ieee80211_interface)) {
         return;
-    }
-    std::string expected = "expected \"" + own;
-    if (is_80211) {
-        expected.append("\" or \"").append(ber_table_error_model);
     }
     throw ConfigError({"radio.error_model",
                        "\"" + error_model + "\"",
-                       {expected + "\" for an " + interface_type},
+                       {"expected one for an " + interface_type + ", such as \"" +
+                        RadioConfig(interface_type).error_model + "\""},
                        {"interface.typename"}});
 }
 

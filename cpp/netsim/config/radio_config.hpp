@@ -16,8 +16,9 @@
 namespace netsim {
 
 inline constexpr std::string_view ber_table_error_model = "Ieee80211BerTableErrorModel";
-inline constexpr std::array<std::string_view, 4> error_model_names{
-    "Ieee80211NistErrorModel", ber_table_error_model, "Ieee802154ErrorModel", ""};
+inline constexpr std::array<std::string_view, 5> error_model_names{
+    "Ieee80211DespreadingErrorModel", "Ieee80211NistErrorModel", ber_table_error_model,
+    "Ieee802154ErrorModel", ""};
 inline constexpr std::string_view snir_by_chunks = "chunks";
 inline constexpr std::array<std::string_view, 2> snir_mode_names{"min", snir_by_chunks};
 inline constexpr std::string_view collision_by_overlap = "overlap";
@@ -37,8 +38,8 @@ struct RadioConfig {
     double communication_range_m = 60;
     double sensitivity_w = 3.1622776601683794e-12;       // -85 dBm
     double energy_detection_w = 3.1622776601683794e-12;  // -85 dBm
-    double snir_threshold = 2.5118864315095801;          // 4 dB
-    std::string error_model = "Ieee80211NistErrorModel";
+    double snir_threshold = 1.2589254117941673;          // 1 dB
+    std::string error_model = "Ieee80211DespreadingErrorModel";
     AntennaConfig antenna;
 
     double noise_figure = 5.0118723362727229;  // 7 dB

@@ -40,7 +40,7 @@ private:
     static double success_at(const Curve& curve, double snir_db);
 
     std::map<std::int64_t, Curves> rates_;  // by bitrate in bps
-    NistErrorModel nist_;
+    NistErrorModel nist_{despreading_rates};
 };
 
 }  // namespace netsim

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
-#include <numbers>
 
 #include "netsim/config/check.hpp"
 #include "netsim/config/radio_config.hpp"
@@ -13,19 +13,11 @@
 #include "netsim/phy/ber_table.hpp"
 #include "netsim/phy/bit_error_bounds.hpp"
 #include "netsim/phy/oqpsk_error_rate.hpp"
+#include "netsim/phy/polynomial.hpp"
+#include "netsim/phy/spread_error_rate.hpp"
 
 namespace netsim {
 namespace {
-
-// coefficients[0] + coefficients[1] x + …, by Horner's rule.
-template <std::size_t N>
-double polynomial(double x, const std::array<double, N>& coefficients) {
-    double sum = 0;
-    for (std::size_t i = N; i-- > 0;) {
-        sum = sum * x + coefficients[i];
-    }
-    return sum;
-}
 
 double to_the_fifth(double x) {
     return x * x * x * x * x;
@@ -90,33 +82,8 @@ double coded_bit_error(Constellation constellation, CodeRate code_rate, double s
     return std::min(bound, 1.0);
 }
 
-double dsss_1_bit_error(double snir) {
-    return 0.5 * std::exp(-2 * snir);
-}
-
-double dsss_2_bit_error(double snir) {
-    constexpr double sqrt2 = std::numbers::sqrt2;
-    static const double factor = (sqrt2 + 1) / std::sqrt(8 * std::numbers::pi * sqrt2);
-    return std::min(factor / std::sqrt(snir) * std::exp(-(2 - sqrt2) * snir), 1.0);
-}
-
-// Limits a fit to simulated CCK receivers to the range in which it is valid.
-double cck_bit_error(double snir, double (*fit)(double)) {
-    if (snir > 10) {
-        return 0;
-    }
-    return snir < 0.1 ? 0.5 : fit(snir);
-}
-
-double cck_5_5_fit(double snir) {
-    return 0.53681634344 * std::exp(-std::pow((snir - 0.0033092430026) / 0.416543723610, 1.02889815344));
-}
-
-double cck_11_fit(double snir) {
-    const double dividend = polynomial<3>(snir, {1.07406894673, -0.18397449399, 0.0079056742265});
-    const double divisor = polynomial<4>(snir, {2.20327151287, 0.30552298746, 1.05233169046, 1});
-    return dividend / divisor;
-}
+// The bitrate of the header of 802.11b.
+constexpr std::int64_t slowest_bps = 1'000'000;
 
 // Margin for the rounding of the bounds and of the values that they bound.
 constexpr double bounds_rounding = 1e-9;
@@ -139,25 +106,6 @@ const BitErrorBounds& ofdm_bounds(Constellation constellation, CodeRate code_rat
     return *bounds[static_cast<std::size_t>(constellation)][static_cast<std::size_t>(code_rate)];
 }
 
-const BitErrorBounds& dsss_bounds(std::int64_t bitrate_bps) {
-    static const BitErrorBounds slow(dsss_1_bit_error);
-    static const BitErrorBounds fast(dsss_2_bit_error);
-    return bitrate_bps == 1'000'000 ? slow : fast;
-}
-
-// Expected bit errors of a frame, header included, for the bit error rates that `rate(const
-// BitErrorBounds&)` returns. Not for CCK, whose fits need not fall with the SNIR.
-template <typename Rate>
-double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) {
-    const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
-    if (mode.family == ModeFamily::ofdm) {
-        static const BitErrorBounds& header = ofdm_bounds(Constellation::bpsk, CodeRate::one_half);
-        return mode.header_bits * rate(header) + bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
-    }
-    NETSIM_ASSERT(mode.family == ModeFamily::dsss);
-    return mode.header_bits * rate(dsss_bounds(1'000'000)) + bits * rate(dsss_bounds(mode.bitrate_bps));
-}
-
 double log_success(double bit_error, double bits) {
     if (bit_error == 0 || bits == 0) {
         return 0;
@@ -167,19 +115,27 @@ double log_success(double bit_error, double bits) {
 
 }  // namespace
 
-double NistErrorModel::bit_error_rate(const Mode& mode, double snir) {
-    NETSIM_ASSERT(snir >= 0);
-    switch (mode.family) {
-        case ModeFamily::ofdm:
-            return coded_bit_error(mode.constellation, mode.code_rate, snir);
-        case ModeFamily::dsss:
-            return mode.bitrate_bps == 1'000'000 ? dsss_1_bit_error(snir) : dsss_2_bit_error(snir);
-        case ModeFamily::cck:
-            return cck_bit_error(snir, mode.bitrate_bps == 5'500'000 ? cck_5_5_fit : cck_11_fit);
-        case ModeFamily::oqpsk:
-            break;  // not an 802.11 mode
+// Expected bit errors of a frame, header included, for the bit error rates that `rate(const
+// BitErrorBounds&)` returns. Needs bounds.
+template <typename Rate>
+double NistErrorModel::lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) const {
+    const auto bits = static_cast<double>(mode.data_bits(psdu_bytes));
+    if (mode.family == ModeFamily::ofdm) {
+        static const BitErrorBounds& header = ofdm_bounds(Constellation::bpsk, CodeRate::one_half);
+        return mode.header_bits * rate(header) + bits * rate(ofdm_bounds(mode.constellation, mode.code_rate));
     }
-    NETSIM_ASSERT(false);
+    const SpreadRate& header = spread_rates_(slowest_bps);
+    return mode.header_bits * rate(*header.bounds) + bits * rate(*spread_rates_(mode.bitrate_bps).bounds);
+}
+
+bool NistErrorModel::has_bounds(const Mode& mode) const {
+    return mode.family == ModeFamily::ofdm || spread_rates_(mode.bitrate_bps).bounds != nullptr;
+}
+
+double NistErrorModel::bit_error_rate(const Mode& mode, double snir) const {
+    NETSIM_ASSERT(snir >= 0 && mode.family != ModeFamily::oqpsk);  // an 802.11 mode
+    return mode.family == ModeFamily::ofdm ? coded_bit_error(mode.constellation, mode.code_rate, snir)
+                                           : spread_rates_(mode.bitrate_bps).bit_error(snir);
 }
 
 double NistErrorModel::success_probability(const Mode& mode, double snir, int psdu_bytes) const {
@@ -191,14 +147,14 @@ double NistErrorModel::log_header_success(const Mode& mode, double snir) const {
     NETSIM_ASSERT(snir >= 0);
     return log_success(mode.family == ModeFamily::ofdm
                            ? coded_bit_error(Constellation::bpsk, CodeRate::one_half, snir)
-                           : dsss_1_bit_error(snir),
+                           : spread_rates_(slowest_bps).bit_error(snir),
                        mode.header_bits);
 }
 
 // If n bits fail independently, each with probability b at most, all survive with a probability of
 // at least 1 − n b.
 double NistErrorModel::min_success(const Mode& mode, double snir, int psdu_bytes) const {
-    if (mode.family == ModeFamily::cck) {
+    if (!has_bounds(mode)) {
         return 0;
     }
     const double lost =
@@ -210,7 +166,7 @@ double NistErrorModel::min_success(const Mode& mode, double snir, int psdu_bytes
 // If each bit fails with probability b at least, the probability that all survive is at most
 // (1 − b)^n ≤ e^(−n b) ≤ 1 / (1 + n b + (n b)² / 2).
 double NistErrorModel::max_success(const Mode& mode, double snir, int psdu_bytes) const {
-    if (mode.family == ModeFamily::cck) {
+    if (!has_bounds(mode)) {
         return 1;
     }
     const double lost =
@@ -223,7 +179,8 @@ double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_
 }
 
 const ErrorModel& error_model(std::string_view name) {
-    static const NistErrorModel nist;
+    static const NistErrorModel despreading(despreading_rates);
+    static const NistErrorModel nist(inet_rates);
     static const OqpskErrorModel oqpsk;
     static const NoErrorModel none;
     check_name("radio.error_model", name, error_model_names);
@@ -233,8 +190,11 @@ const ErrorModel& error_model(std::string_view name) {
     if (name.empty()) {
         return none;
     }
-    NETSIM_ASSERT(name == "Ieee80211NistErrorModel");
-    return nist;
+    if (name == "Ieee80211NistErrorModel") {
+        return nist;
+    }
+    NETSIM_ASSERT(name == "Ieee80211DespreadingErrorModel");
+    return despreading;
 }
 
 std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config) {

@@ -10,13 +10,11 @@
 //     7/12·½erfc(√(s/42)) for 64-QAM. With D = √(4p(1-p)), coded bit error = the union bound over the weight
 //     spectrum of the 802.11 convolutional code, at most 1. Header 24 bits at BPSK 1/2, data the bits of
 //     Mode::data_bits.
-//   DSSS: bit error ½e^(-2s) at 1 Mbps and (√2+1)/√(8π√2) · s^-½ · e^(-(2-√2)s), at most 1, at 2 Mbps.
-//   CCK: fitted curves; 0 above s = 10, ½ below s = 0.1.
+//   DSSS and CCK (802.11b): phy/spread_error_rate.hpp.
 //   Header of DSSS and CCK 48 bits at 1 Mbps, data 8 bits per byte.
 // success = (1 - header bit error)^header bits · (1 - data bit error)^data bits.
 //
-// ns-3's model of the same name has the same bit error rates for OFDM. For DSSS, it multiplies s by
-// the ratio of bandwidth to bitrate (22 at 1 Mbps). This model multiplies it by 2, as INET does.
+// ns-3's model of the same name has the same bit error rates for OFDM.
 #pragma once
 
 #include <cmath>
@@ -25,6 +23,7 @@
 
 #include "netsim/config/radio_config.hpp"
 #include "netsim/phy/modes.hpp"
+#include "netsim/phy/spread_error_rate.hpp"
 
 namespace netsim {
 
@@ -51,17 +50,27 @@ public:
     }
 };
 
+// The model of NIST for OFDM, with either kind of bit error rates for 802.11b.
 class NistErrorModel final : public ErrorModel {
 public:
+    explicit NistErrorModel(SpreadRates spread_rates) : spread_rates_(spread_rates) {}
+
     double success_probability(const Mode& mode, double snir, int psdu_bytes) const override;
     double log_header_success(const Mode& mode, double snir) const override;
     double log_data_success(const Mode& mode, double snir, int psdu_bytes) const override;
-    // Both have bounds for all modes except CCK.
+    // Both have bounds for all modes except INET's of CCK.
     double min_success(const Mode& mode, double snir, int psdu_bytes) const override;
     double max_success(const Mode& mode, double snir, int psdu_bytes) const override;
 
     // Bit error rate of the data after decoding, in [0, 1].
-    static double bit_error_rate(const Mode& mode, double snir);
+    double bit_error_rate(const Mode& mode, double snir) const;
+
+private:
+    bool has_bounds(const Mode& mode) const;
+    template <typename Rate>
+    double lost_bits(const Mode& mode, int psdu_bytes, const Rate& rate) const;
+
+    SpreadRates spread_rates_;
 };
 
 // A receiver without bit errors: only RadioConfig::snir_threshold decides.

@@ -42,13 +42,13 @@ TEST(InterfaceConfig, TheErrorModelHasToFitTheType) {
     InterfaceConfig config{std::string(ieee802154_interface)};
     config.radio.error_model = "Ieee80211NistErrorModel";
     EXPECT_EQ(error_text([&] { config.validate(); }),
-              "radio.error_model = \"Ieee80211NistErrorModel\": expected \"Ieee802154ErrorModel\" for an "
-              "Ieee802154NarrowbandInterface");
+              "radio.error_model = \"Ieee80211NistErrorModel\": expected one for an "
+              "Ieee802154NarrowbandInterface, such as \"Ieee802154ErrorModel\"");
     config = InterfaceConfig();
     config.radio.error_model = "Ieee802154ErrorModel";
     EXPECT_EQ(error_text([&] { config.validate(); }),
-              "radio.error_model = \"Ieee802154ErrorModel\": expected \"Ieee80211NistErrorModel\" or "
-              "\"Ieee80211BerTableErrorModel\" for an Ieee80211Interface");
+              "radio.error_model = \"Ieee802154ErrorModel\": expected one for an "
+              "Ieee80211Interface, such as \"Ieee80211DespreadingErrorModel\"");
 }
 
 TEST(InterfaceConfig, NoErrorModelFitsEachType) {

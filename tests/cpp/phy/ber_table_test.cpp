@@ -65,8 +65,9 @@ TEST(BerTable, TheHeaderIsAShortFrameAtItsOwnRate) {
 TEST(BerTable, BitratesItLacksFollowTheNistModel) {
     const auto model = model_of(std::string(header) + "6,30,3,0.1\n");
     EXPECT_EQ(model.log_data_success(mode(24), 18, 100),
-              NistErrorModel().log_data_success(mode(24), 18, 100));
-    EXPECT_EQ(model.log_header_success(mode(1), 1), NistErrorModel().log_header_success(mode(1), 1));
+              NistErrorModel(despreading_rates).log_data_success(mode(24), 18, 100));
+    EXPECT_EQ(model.log_header_success(mode(1), 1),
+              NistErrorModel(despreading_rates).log_header_success(mode(1), 1));
 }
 
 TEST(BerTable, CommentsEmptyLinesAndTheEndsOfLinesOfWindowsAreNoMatter) {

@@ -61,7 +61,7 @@ protected:
                medium.background_noise_w;
     }
     double success_at(double distance_m) const {
-        return NistErrorModel().success_probability(mode, snr_at(distance_m), psdu_bytes);
+        return NistErrorModel(inet_rates).success_probability(mode, snr_at(distance_m), psdu_bytes);
     }
     // Distance at which the probability of success falls to `probability`.
     double distance_of(double probability) const {

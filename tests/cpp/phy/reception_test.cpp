@@ -113,7 +113,7 @@ TEST(Reception, UnderEvenNoiseChunksAreTheClosedForm) {
         const double other_w = noise_w * draws.uniform();
         const std::vector<Arrival> others{{nullptr, us(0), us(1'000'000), other_w}};
         const ReceptionModel reception = model();
-        const NistErrorModel nist;
+        const NistErrorModel nist(inet_rates);
         const double at = frame.arrival.power_w / (noise_w + other_w);
         const double header = success(reception, FramePart::header, frame.arrival, others);
         const double data = success(reception, FramePart::data, frame.arrival, others);
@@ -131,7 +131,7 @@ TEST(Reception, AChunkCountsWithItsShareOfTheTime) {
     const Period data = period_of(FramePart::data, frame.arrival);
     const SimTime length = data.end - data.start;
     const SimTime quarter = SimTime::from_ps(length.ps() / 4);
-    const NistErrorModel nist;
+    const NistErrorModel nist(inet_rates);
     const double quiet = nist.log_data_success(mode, 2, 100);
     const double disturbed = nist.log_data_success(mode, 2 / 1.2, 100);
     const std::vector<Arrival> others{

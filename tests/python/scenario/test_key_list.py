@@ -29,7 +29,7 @@ def test_every_key_is_listed_with_a_meaning_and_a_unit() -> None:
         ("centerFrequency", "2412MHz; 802.15.4: 2450MHz"),
         ("channelNumber", "0; 802.15.4: 20"),
         ("bandName", '"2.4 GHz"; 802.15.4: none'),
-        ("snirThreshold", "4dB; 802.15.4: -8dB"),
+        ("snirThreshold", "1dB; 802.15.4: -8dB"),
         ("transmissionRange", "none"),
         ("beamWidth", HAS_TO_BE_GIVEN),
     ],

@@ -137,6 +137,7 @@ def _node_config(case: Case, index: int, station: Station) -> "NodeConfig":
     radio.sensitivity_w = receiver.sensitivity_w
     radio.energy_detection_w = receiver.energy_detection_w
     radio.snir_threshold = receiver.snir_threshold
+    radio.error_model = "Ieee80211NistErrorModel"
     radio.noise_figure = receiver.noise_figure
     radio.snir_mode = "chunks" if receiver.by_chunks else "min"
     if receiver.preamble_detection is not None:
