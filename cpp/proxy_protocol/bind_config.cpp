@@ -108,6 +108,7 @@ py::dict defaults_row(const Schema& schema, const Field& field) {
     static MediumConfig medium{};
     static MediumConfig narrowband_medium{std::string(ieee802154_scalar_medium)};
     static MobilityConfig mobility{};
+    static ComputerConfig computer{};
     static ObstacleConfig obstacle{};
     static WindConfig wind{};
     const auto parts = [&](InterfaceConfig& interface) -> void* {
@@ -128,6 +129,8 @@ py::dict defaults_row(const Schema& schema, const Field& field) {
         row["802.15.4"] = default_of(field, &narrowband_medium);
     } else if (&schema == &MobilityConfig::schema) {
         row[""] = default_of(field, &mobility);
+    } else if (&schema == &ComputerConfig::schema) {
+        row[""] = default_of(field, &computer);
     } else if (&schema == &ObstacleConfig::schema) {
         row[""] = default_of(field, &obstacle);
     } else if (&schema == &WindConfig::schema) {
@@ -197,6 +200,10 @@ void bind_config(py::module_& module) {
     mobility.def(py::init<>());
     bind_fields(mobility);
 
+    py::class_<ComputerConfig> computer(module, "ComputerConfig");
+    computer.def(py::init<>());
+    bind_fields(computer);
+
     py::class_<WindConfig> wind(module, "WindConfig");
     wind.def(py::init<>());
     bind_fields(wind);
@@ -232,6 +239,7 @@ void bind_config(py::module_& module) {
             })
         .def_readwrite("mobility", &NodeConfig::mobility)
         .def_readwrite("wind", &NodeConfig::wind)
+        .def_readwrite("computer", &NodeConfig::computer)
         .def_property(
             "initial_position",
             [](const NodeConfig& config) {

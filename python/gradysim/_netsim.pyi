@@ -5,6 +5,7 @@ from typing import Any
 
 from gradysim._netsim_fields import (
     AntennaFields,
+    ComputerFields,
     CsmaFields,
     InterfaceFields,
     MacFields,
@@ -147,6 +148,9 @@ class MobilityConfig(MobilityFields):
 class WindConfig(WindFields):
     def validate(self) -> None: ...
 
+class ComputerConfig(ComputerFields):
+    def validate(self) -> None: ...
+
 class InterfaceConfig(InterfaceFields):
     """Its type chooses the MAC and the defaults of the radio, so it stays what it was at the start."""
 
@@ -166,6 +170,7 @@ class NodeConfig:
     def wlan(self) -> tuple[InterfaceConfig, ...]: ...
     mobility: MobilityConfig
     wind: WindConfig
+    computer: ComputerConfig
     initial_position: tuple[float, float, float]
     def __init__(self, name: str, interfaces: Sequence[str] = ...) -> None: ...
     def validate(self) -> None: ...

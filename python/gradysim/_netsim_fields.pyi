@@ -9,6 +9,8 @@ class MobilityFields:
     speed_mps: float
     """Speed; with MasslessMobility, QuadcopterMobility and autopilots until the protocol sets another
     one, as every mission of the plugin does."""
+    command_delay_s: float
+    """Time from a command of the protocol until the vehicle obeys it."""
     telemetry_interval_s: float
     """Time between two calls of handle_telemetry, at least 1us; 0s: no calls. In prototype mode the
     call comes with the first update of all positions at or after its time. Positions are updated every
@@ -63,6 +65,14 @@ class MobilityFields:
     start_pos: float
     """Where on the border of the area the node starts, in sides: 0 is the corner of the smallest x and
     y, 1 that of the largest x and the smallest y, and so on."""
+
+class ComputerFields:
+    processing_time_s: float
+    """Median of the time that the computer of a node takes for each event of its protocol, one after
+    the other (docs/how-to/model-a-board.md); 0s: none."""
+    processing_time_spread: float
+    """Standard deviation of the natural logarithm of that time, which has a log-normal distribution; 0:
+    always the median."""
 
 class InterfaceFields:
     @property

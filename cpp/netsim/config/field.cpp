@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "netsim/config/antenna_config.hpp"
+#include "netsim/config/computer_config.hpp"
 #include "netsim/config/csma_config.hpp"
 #include "netsim/config/interface_config.hpp"
 #include "netsim/config/mac_config.hpp"
@@ -78,9 +79,9 @@ std::string Schema::full_name(const Field& field) const {
 
 std::span<const Schema* const> all_schemas() {
     static constexpr std::array schemas{
-        &MobilityConfig::schema, &InterfaceConfig::schema, &MacConfig::schema,
-        &CsmaConfig::schema,     &RadioConfig::schema,     &AntennaConfig::schema,
-        &MediumConfig::schema,   &ObstacleConfig::schema,  &WindConfig::schema,
+        &MobilityConfig::schema, &ComputerConfig::schema, &InterfaceConfig::schema, &MacConfig::schema,
+        &CsmaConfig::schema,     &RadioConfig::schema,    &AntennaConfig::schema,   &MediumConfig::schema,
+        &ObstacleConfig::schema, &WindConfig::schema,
     };
     return schemas;
 }

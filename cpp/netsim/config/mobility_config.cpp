@@ -9,10 +9,12 @@ namespace {
 constexpr std::array<std::string_view, 6> moving{mobility_type_names[0], mobility_type_names[2],
                                                  mobility_type_names[3], mobility_type_names[4],
                                                  mobility_type_names[5], "ArdupilotMobility"};
+constexpr std::array<std::string_view, 2> obeying{mobility_type_names[0], mobility_type_names[5]};
 constexpr std::array<std::string_view, 2> in_an_area{mobility_type_names[2], mobility_type_names[4]};
 constexpr ReadBy with_motion{"mobility.typename", moving, ""};
 constexpr ReadBy with_controller{"mobility.typename", std::span(mobility_type_names).subspan(5, 1),
                                  "QuadcopterMobility"};
+constexpr ReadBy with_commands{"mobility.typename", obeying, "MasslessMobility, QuadcopterMobility"};
 constexpr ReadBy with_drag{"mobility.typename", std::span(moving).subspan(4),
                            "QuadcopterMobility, ArdupilotMobility"};
 constexpr ReadBy with_area{"mobility.typename", in_an_area, "LinearMobility, RectangleMobility"};
@@ -35,6 +37,8 @@ constexpr Field fields[] = {
      "as "
      "every mission of the plugin does",
      with_motion},
+    {NETSIM_FIELD(MobilityConfig, command_delay_s), "commandDelay", quantity("s").at_least(0).at_most(1e6),
+     "Time from a command of the protocol until the vehicle obeys it", with_commands},
     // Shorter intervals would leave time only for telemetry; longer ones do not fit into simulated time.
     {NETSIM_FIELD(MobilityConfig, telemetry_interval_s), "telemetryInterval",
      quantity("s").shown_in("ms").at_least(1e-6).at_most(1e6).or_special(0),

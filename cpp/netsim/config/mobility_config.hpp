@@ -19,6 +19,7 @@ inline constexpr std::array<std::string_view, 6> mobility_type_names{
 struct MobilityConfig {
     std::string type_name = "MasslessMobility";  // `typename` in Python
     double speed_mps = 10;
+    double command_delay_s = 0;
     double telemetry_interval_s = 0.01;  // 0: no telemetry
 
     double position_error_m = 0;

@@ -23,6 +23,7 @@ void NodeConfig::validate() const {
     validate_interfaces();
     mobility.validate();
     wind.validate();
+    computer.validate();
 }
 
 void NodeConfig::validate_interfaces() const {

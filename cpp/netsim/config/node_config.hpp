@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "netsim/config/computer_config.hpp"
 #include "netsim/config/interface_config.hpp"
 #include "netsim/config/mobility_config.hpp"
 #include "netsim/config/wind_config.hpp"
@@ -26,6 +27,7 @@ struct NodeConfig {
         wlan;  // 1 to most_interfaces; where there are radios, each on its own channel
     MobilityConfig mobility;
     WindConfig wind;  // where it flies
+    ComputerConfig computer;
 
     // Throws ConfigError for the first field out of its range, here or in one of the parts: "radio.tx_power_w = …", if
     // there are several interfaces "wlan[1].radio.tx_power_w = …".

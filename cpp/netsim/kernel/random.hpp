@@ -26,6 +26,7 @@ enum class Purpose : std::uint32_t {
     shadowing = 8,  // beside a path loss; LogNormalShadowing draws from `fading`
     gusts = 9,
     position_error = 10,
+    processing = 11,
 };
 
 // Philox4x32 with 10 rounds: maps a 128-bit counter and a 64-bit key to 128 random bits.

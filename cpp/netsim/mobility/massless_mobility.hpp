@@ -12,10 +12,10 @@ class MasslessMobility final : public Mobility {
 public:
     MasslessMobility(Position initial, double speed_mps) : Mobility(initial), speed_mps_(speed_mps) {}
 
-    void go_to(SimTime now, Position target) override;
-    void set_speed(SimTime now, double speed_mps) override;
-
 private:
+    void turn_to(SimTime now, Position target) override;
+    void change_speed(SimTime now, double speed_mps) override;
+
     double speed_mps_;
     std::optional<Position> target_;
 };

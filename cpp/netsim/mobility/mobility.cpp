@@ -12,12 +12,15 @@
 
 namespace netsim {
 
-void Mobility::refuse() {
-    throw SimulationError(
-        "the node does not follow commands: give it a mobility.typename that does, MasslessMobility");
+void Mobility::check_accepts_commands() const {
+    if (!can_move()) {
+        throw SimulationError(
+            "the node does not follow commands: give it a mobility.typename that does, MasslessMobility");
+    }
 }
 
-void Mobility::check_target(Position target) {
+void Mobility::check_target(Position target) const {
+    check_accepts_commands();
     if (!is_in_scene(target)) {
         throw SimulationError("cannot go to (" + std::to_string(target.x) + ", " + std::to_string(target.y) +
                               ", " + std::to_string(target.z) +
@@ -25,7 +28,8 @@ void Mobility::check_target(Position target) {
     }
 }
 
-void Mobility::check_speed(double speed_mps) {
+void Mobility::check_speed(double speed_mps) const {
+    check_accepts_commands();
     if (!std::isfinite(speed_mps) || speed_mps < 0) {
         throw SimulationError("cannot fly at " + std::to_string(speed_mps) +
                               " m/s: expected a finite speed of at least 0 m/s");

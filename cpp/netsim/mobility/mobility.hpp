@@ -20,11 +20,20 @@ class Mobility {
 public:
     virtual ~Mobility() = default;
 
-    // Fly to `target` (meters). Throws SimulationError if the model cannot, or if a number is not
-    // finite.
-    virtual void go_to(SimTime now, Position target) = 0;
-    // Fly at `speed_mps` ≥ 0 from now on, also on the current leg.
-    virtual void set_speed(SimTime now, double speed_mps) = 0;
+    // Fly to `target` (meters). Throws SimulationError as check_target does.
+    void go_to(SimTime now, Position target) {
+        check_target(target);
+        turn_to(now, target);
+    }
+    // Fly at `speed_mps` ≥ 0 from now on, also on the current leg. Throws SimulationError as check_speed does.
+    void set_speed(SimTime now, double speed_mps) {
+        check_speed(speed_mps);
+        change_speed(now, speed_mps);
+    }
+    // Throw SimulationError for a command that the model cannot carry out, or with a number that is not
+    // finite or out of range.
+    void check_target(Position target) const;
+    void check_speed(double speed_mps) const;
 
     // Whether the model accepts commands.
     virtual bool can_move() const { return true; }
@@ -49,17 +58,17 @@ public:
 protected:
     explicit Mobility(Position initial) : trajectory_(initial) {}
 
-    // For models that accept no commands.
-    [[noreturn]] static void refuse();
-    // Throw SimulationError for a command that no model can carry out.
-    static void check_target(Position target);
-    static void check_speed(double speed_mps);
+    // Commands, checked. Only for models that accept them.
+    virtual void turn_to(SimTime, Position) {}
+    virtual void change_speed(SimTime, double) {}
     // Null if there is none.
     GaussMarkov* position_error() { return position_error_.get(); }
 
     Trajectory trajectory_;
 
 private:
+    void check_accepts_commands() const;
+
     std::unique_ptr<GaussMarkov> position_error_;
 };
 

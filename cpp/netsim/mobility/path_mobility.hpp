@@ -13,8 +13,6 @@ class PathMobility final : public Mobility {
 public:
     explicit PathMobility(std::unique_ptr<Path> path) : Mobility(path->at(0)), path_(std::move(path)) {}
 
-    void go_to(SimTime, Position) override { refuse(); }
-    void set_speed(SimTime, double) override { refuse(); }
     bool can_move() const override { return false; }
     SimTime begin_leg(SimTime now) override;
 

@@ -12,12 +12,13 @@ public:
     QuadcopterMobility(Position initial, double speed_mps, const Airframe& airframe, const Wind& wind)
         : Mobility(initial), vehicle_(initial, speed_mps, airframe, wind) {}
 
-    void go_to(SimTime now, Position target) override;
-    void set_speed(SimTime now, double speed_mps) override;
     bool flies() const override { return true; }
     void fly(SimTime now, SimTime until) override;
 
 private:
+    void turn_to(SimTime, Position target) override { vehicle_.go_to(target); }
+    void change_speed(SimTime, double speed_mps) override { vehicle_.set_speed(speed_mps); }
+
     Quadcopter vehicle_;
 };
 

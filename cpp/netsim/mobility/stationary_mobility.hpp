@@ -9,8 +9,6 @@ class StationaryMobility final : public Mobility {
 public:
     explicit StationaryMobility(Position initial) : Mobility(initial) {}
 
-    void go_to(SimTime, Position) override { refuse(); }
-    void set_speed(SimTime, double) override { refuse(); }
     bool can_move() const override { return false; }
 };
 

@@ -4,8 +4,9 @@
 
 #include "netsim/error.hpp"
 #include "netsim/kernel/prefetch.hpp"
-#include "netsim/node/protocol_error.hpp"
+#include "netsim/node/computer.hpp"
 #include "netsim/node/replay_recorder.hpp"
+#include "netsim/node/run_callback.hpp"
 
 namespace netsim {
 
@@ -22,7 +23,10 @@ Node::Node(NetworkContext& context, const NodeConfig& config, NodeId id, std::ui
       id_(id),
       name_(config.name),
       attitude_(config.mobility),
-      random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol) {}
+      random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol),
+      processing_time_(config.computer,
+                       RandomStream(seed, static_cast<std::uint32_t>(id), Purpose::processing)),
+      command_delay_(SimTime::from_seconds(config.mobility.command_delay_s)) {}
 
 void Node::add_interface(std::unique_ptr<NetworkInterface> interface) {
     interface->set_listener(protocol_.get());
@@ -31,10 +35,16 @@ void Node::add_interface(std::unique_ptr<NetworkInterface> interface) {
 }
 
 void Node::set_protocol(std::unique_ptr<Protocol> protocol) {
+    computer_ = nullptr;
     protocol_ = std::move(protocol);
     if (protocol_) {
         protocol_->context_ = &context_;
         protocol_->node_ = id_;
+        if (processing_time_.is_any()) {
+            auto computer = std::make_unique<Computer>(std::move(protocol_), processing_time_);
+            computer_ = computer.get();
+            protocol_ = std::move(computer);
+        }
     }
     for (const auto& interface : interfaces_) {
         interface->set_listener(protocol_.get());
@@ -44,12 +54,7 @@ void Node::set_protocol(std::unique_ptr<Protocol> protocol) {
 template <typename Call>
 void Node::call_protocol(const char* callback, const Call& call) {
     if (protocol_) {
-        if (context_.recorder != nullptr) {
-            context_.recorder->callback_begins(callback);
-        }
-        context_.active_node = id_;
-        call_of_protocol(callback, id_, now(), [&] { call(*protocol_); });
-        context_.active_node = NetworkContext::no_node;
+        run_callback(context_, id_, callback, [&] { call(*protocol_); });
     }
 }
 
@@ -128,9 +133,13 @@ void Node::send(NodeId destination, Payload payload, std::int32_t interface) {
 }
 
 void Node::go_to(Position target) {
-    mobility_->go_to(now(), target);
+    if (command_delay_ > SimTime{}) {
+        mobility_->check_target(target);
+        context_.simulator.schedule_after(command_delay_, [this, target] { obey(target); });
+    } else {
+        obey(target);
+    }
     if (context_.recorder != nullptr) {
-        context_.recorder->course_changed(id_);
         context_.recorder->event(
             id_, ReplayRecorder::EventKind::command,
             "go to " + text_of(target.x) + ", " + text_of(target.y) + ", " + text_of(target.z) + " m");
@@ -138,11 +147,29 @@ void Node::go_to(Position target) {
 }
 
 void Node::set_speed(double speed_mps) {
+    if (command_delay_ > SimTime{}) {
+        mobility_->check_speed(speed_mps);
+        context_.simulator.schedule_after(command_delay_, [this, speed_mps] { obey_speed(speed_mps); });
+    } else {
+        obey_speed(speed_mps);
+    }
+    if (context_.recorder != nullptr) {
+        context_.recorder->event(id_, ReplayRecorder::EventKind::command,
+                                 "fly at " + text_of(speed_mps) + " m/s");
+    }
+}
+
+void Node::obey(Position target) {
+    mobility_->go_to(now(), target);
+    if (context_.recorder != nullptr) {
+        context_.recorder->course_changed(id_);
+    }
+}
+
+void Node::obey_speed(double speed_mps) {
     mobility_->set_speed(now(), speed_mps);
     if (context_.recorder != nullptr) {
         context_.recorder->course_changed(id_);
-        context_.recorder->event(id_, ReplayRecorder::EventKind::command,
-                                 "fly at " + text_of(speed_mps) + " m/s");
     }
 }
 
@@ -165,6 +192,9 @@ void Node::schedule_timer(std::string timer, SimTime time) {
 
 void Node::cancel_timer(const std::string& timer) {
     timers_.cancel(timer, [this](EventHandle event) { context_.simulator.cancel(event); });
+    if (computer_ != nullptr) {
+        computer_->cancel_timer(timer);
+    }
 }
 
 void Node::prefetch_for_timer(int step) const {
@@ -194,7 +224,7 @@ void Node::timer_due(std::size_t number) {
     fingerprint.add(static_cast<std::uint64_t>(now().ps()));
     fingerprint.add_text(timer);
     call_protocol("handle_timer", [&](Protocol& protocol) {
-        if (context_.recorder != nullptr) {
+        if (context_.recorder != nullptr && computer_ == nullptr) {
             context_.recorder->timer_due(id_, timer);
         }
         protocol.handle_timer(timer);

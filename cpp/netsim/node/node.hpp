@@ -16,11 +16,14 @@
 #include "netsim/mobility/attitude.hpp"
 #include "netsim/mobility/mobility.hpp"
 #include "netsim/node/network_context.hpp"
+#include "netsim/node/processing_time.hpp"
 #include "netsim/node/protocol.hpp"
 #include "netsim/node/timers.hpp"
 #include "netsim/node/tracked_variables.hpp"
 
 namespace netsim {
+
+class Computer;  // node/computer.hpp
 
 class alignas(64) Node final {
 public:
@@ -67,6 +70,7 @@ public:
     // Through wlan[interface].
     void broadcast(Payload payload, std::int32_t interface = 0);
     void send(NodeId destination, Payload payload, std::int32_t interface = 0);
+    // The vehicle obeys after the command delay of its mobility.
     void go_to(Position target);
     void set_speed(double speed_mps);
     // `time` must not be in the past. The same name may be pending several times. Also throws for an
@@ -85,6 +89,8 @@ public:
     const TrackedVariables& tracked_variables() const { return tracked_variables_; }
 
 private:
+    void obey(Position target);
+    void obey_speed(double speed_mps);
     NetworkInterface& interface_at(std::int32_t index);
     void send_through(std::int32_t interface, NodeId destination, Payload payload);
     template <typename Call>
@@ -108,7 +114,8 @@ private:
     [[no_unique_address]] Timers timers_;  // its padding holds the id
     NodeId id_;
 
-    bool observed_ = false;  // most nodes are not
+    bool observed_ = false;         // most nodes are not
+    Computer* computer_ = nullptr;  // protocol_, if it takes time for its events
     InstantCount timers_for_now_;
     std::vector<std::unique_ptr<NetworkInterface>> interfaces_;
     std::string name_;
@@ -116,6 +123,8 @@ private:
     RandomStream random_;
     TrackedVariables tracked_variables_;
     OnTelemetry on_telemetry_;
+    ProcessingTime processing_time_;
+    SimTime command_delay_;  // from a command to the vehicle until it obeys
 };
 
 }  // namespace netsim

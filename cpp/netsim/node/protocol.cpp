@@ -1,8 +1,7 @@
 #include "netsim/node/protocol.hpp"
 
 #include "netsim/node/network_context.hpp"
-#include "netsim/node/protocol_error.hpp"
-#include "netsim/node/replay_recorder.hpp"
+#include "netsim/node/run_callback.hpp"
 
 namespace netsim {
 
@@ -18,12 +17,7 @@ void Protocol::message_received(const Frame& frame) {
     context_->fingerprint.add(packet_word ^ (static_cast<std::uint64_t>(frame.transmitter) << 40) ^
                               static_cast<std::uint64_t>(node_));
     context_->fingerprint.add(context_->payload_hash.of(frame.payload));
-    if (context_->recorder != nullptr) {
-        context_->recorder->callback_begins("handle_packet");
-    }
-    context_->active_node = node_;
-    call_of_protocol("handle_packet", node_, now, [&] { handle_packet(frame.payload); });
-    context_->active_node = NetworkContext::no_node;
+    run_callback(*context_, node_, "handle_packet", [&] { handle_packet(frame.payload); });
 }
 
 }  // namespace netsim

@@ -15,7 +15,7 @@ namespace netsim {
 
 struct NetworkContext;  // node/network_context.hpp
 
-class Protocol : private NetworkInterfaceListener {
+class Protocol : protected NetworkInterfaceListener {
 public:
     virtual ~Protocol() = default;
 
@@ -39,11 +39,12 @@ public:
     virtual void prefetch() const {}
 
 private:
-    friend class Node;  // sets context_ and node_
+    friend class Node;      // sets context_ and node_
+    friend class Computer;  // passes on messages
 
     // Called directly by the interface. The message is recorded here and not by the node, which saves
     // a cache line in a large network.
-    void message_received(const Frame& frame) final;
+    void message_received(const Frame& frame) override;
 
     NetworkContext* context_ = nullptr;
     NodeId node_ = 0;

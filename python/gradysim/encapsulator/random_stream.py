@@ -34,6 +34,7 @@ class Purpose(IntEnum):
         PARAMETER: Values that an .ini file draws. The path of the parameter takes the place of the node.
         GUSTS: Gusts of wind at a vehicle.
         POSITION_ERROR: Errors of the position that a node knows.
+        PROCESSING: Times that the computer of a node takes for events.
         COMMUNICATION: Lost messages of prototype mode; of the receiver.
     """
 
@@ -41,6 +42,7 @@ class Purpose(IntEnum):
     PARAMETER = 7
     GUSTS = 9
     POSITION_ERROR = 10
+    PROCESSING = 11
     COMMUNICATION = 101
 
 

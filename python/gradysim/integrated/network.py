@@ -84,7 +84,8 @@ def by_kind(nodes: Iterable[NodeSpec]) -> Mapping[object, Sequence[NodeSpec]]:
     """
     kinds: dict[object, list[NodeSpec]] = {}
     for spec in nodes:
-        kind = (spec.group, id(spec.protocol_sources), id(spec.mobility), *map(id, spec.wlan))
+        settings = (spec.protocol_sources, spec.mobility, spec.computer, *spec.wlan)
+        kind = (spec.group, *map(id, settings))
         kinds.setdefault(kind, []).append(spec)
     return kinds
 
@@ -172,6 +173,9 @@ def node_config(spec: NodeSpec) -> "NodeConfig":
         set_fields(interface.mac, wlan.mac)
         set_fields(interface.csma, wlan.csma)
     set_fields(config.mobility, spec.mobility)
+    if spec.autopilot is not None:  # its vehicle has a delay of its own; the engine moves the node after it
+        config.mobility.command_delay_s = 0
+    set_fields(config.computer, spec.computer)
     config.initial_position = spec.initial_position
     with node_errors_at(spec, {}):
         config.validate()
@@ -196,7 +200,8 @@ def node_errors_at(spec: NodeSpec, medium: Mapping[str, Setting]) -> Iterator[No
 def node_settings(spec: NodeSpec, interface: int, medium: Mapping[str, Setting]) -> dict[str, Setting]:
     """Return the settings of one interface of a node and of its context, by target."""
     settings = settings_by_target("medium", medium)
-    settings |= settings_by_target("node", spec.node) | settings_by_target("mobility", spec.mobility)
+    for of_node in ("node", "mobility", "computer"):
+        settings |= settings_by_target(of_node, getattr(spec, of_node))
     for struct, fields in spec.wlan[interface].structs().items():
         settings |= settings_by_target(struct, fields)
     return settings

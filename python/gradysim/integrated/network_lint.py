@@ -5,13 +5,22 @@ from collections import Counter
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import chain
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, NamedTuple
 
 from gradysim.integrated.network import by_kind, medium_config, node_config, one_of_each_kind
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import Source
 from gradysim.scenario.ini import PROFILES
-from gradysim.scenario.keys import IEEE802154, NETWORK_KEYS, NODE_KEYS, OF_802154, has_radios, written_for
+from gradysim.scenario.keys import (
+    ARDUPILOT,
+    IEEE802154,
+    NETWORK_KEYS,
+    NODE_KEYS,
+    OF_802154,
+    has_radios,
+    written_for,
+)
 from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
@@ -146,7 +155,8 @@ def _add_lines(lines: UnreadLines, scenario: Scenario, medium: "MediumConfig") -
         name = f"{spec.group}[*]" if spec.name.endswith("]") else spec.name
         sources = {f"protocol.{name}": source for name, source in spec.protocol_sources.items()}
         sources |= _sources("mobility", spec.mobility) | _sources("autopilot", spec.idle_autopilot)
-        of_node = {"medium": medium, "mobility": config.mobility}
+        flown = SimpleNamespace(typename=ARDUPILOT)  # the engine moves it as a massless vehicle
+        of_node = {"medium": medium, "mobility": config.mobility if spec.autopilot is None else flown}
         lines.add(sources, _chosen(of_node, {*of_network, *sources}), name)
         for interface, wlan in zip(config.wlan, spec.wlan, strict=True):
             sources = {}

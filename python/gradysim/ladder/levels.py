@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 
 from gradysim.scenario.ini import Section
+from gradysim.scenario.keys import MASSLESS, QUADCOPTER
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
@@ -83,6 +84,17 @@ def _has_wind(scenario: Scenario) -> bool:
 def _has_position_errors(scenario: Scenario) -> bool:
     errors = (node.mobility.get("position_error_m") for node in scenario.nodes)
     return any(error and error.value for error in errors)
+
+
+def _has_command_delay(node: NodeSpec) -> bool:
+    delay = node.mobility.get("command_delay_s")
+    typename = node.mobility.get("typename")
+    obeys = typename is None or typename.value in (MASSLESS, QUADCOPTER)
+    return delay is not None and bool(delay.value) and obeys and node.autopilot is None
+
+
+def _takes_time(node: NodeSpec) -> bool:
+    return node.processing_time_s > 0
 
 
 def _has_drifting_clocks(scenario: Scenario) -> bool:
@@ -245,6 +257,12 @@ LEVELS = (
         has_node=_has_autopilot,
     ),
     Level(
+        "commands",
+        "the time from a command until the vehicle obeys",
+        {"*.*.mobility.commandDelay": "0s"},
+        has_node=_has_command_delay,
+    ),
+    Level(
         "wind",
         "wind and gusts",
         {"*.wind.speed": "0mps", "*.wind.gusts": "0mps"},
@@ -256,6 +274,12 @@ LEVELS = (
         "errors of the positions that nodes know",
         {"*.*.mobility.positionError": "0m"},
         _has_position_errors,
+    ),
+    Level(
+        "computer",
+        "the time that computers take for events of protocols",
+        {"*.*.computer.processingTime": "0s"},
+        has_node=_takes_time,
     ),
     Level(
         "clocks",

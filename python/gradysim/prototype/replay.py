@@ -38,12 +38,16 @@ class PrototypeRecorder(TableRecorder):
         """Record the paths of nodes, from their commands; others at intervals."""
         for spec in scenario.nodes:
             self.path(spec.id, spec.initial_position, spec.initial_position, 0)
-        handle_command = mobility.handle_command
+        handle_command, obey = mobility.handle_command, mobility.obey
 
         def record_and_handle(command: MobilityCommand, node: Node[Any]) -> None:
             handle_command(command, node)
             self.close_if_long()
             self.event(node.id, _COMMAND, _text_of(command))
+
+        def record_and_obey(command: MobilityCommand, node: Node[Any]) -> None:
+            obey(command, node)
+            self.close_if_long()
             if node.id in mobility.targets:
                 self.path(node.id, node.position, mobility.targets[node.id], mobility.speeds[node.id])
 
@@ -51,6 +55,7 @@ class PrototypeRecorder(TableRecorder):
             mobility.paths[node_id] = self._sampled_path(node_id, path)
         # An attribute of the object hides the method of its class.
         setattr(mobility, "handle_command", record_and_handle)  # noqa: B010
+        setattr(mobility, "obey", record_and_obey)  # noqa: B010
 
     def _sampled_path(self, node_id: int, path: Callable[[float], Position]) -> Callable[[float], Position]:
         """Return the same path, which records the node at intervals."""

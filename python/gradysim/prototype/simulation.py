@@ -22,6 +22,7 @@ from gradysim.scenario.paths import path_of
 from gradysim.scenario.ranges import ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger
+from gradysim.simulator.handler.computer import ComputerHandler, ProcessingTime
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.mobility.massless import IdleSkippingMobilityHandler
@@ -54,7 +55,9 @@ def build_simulation(
     check_protocols(scenario)
     world = "its {label} handler follows from the scenario"
     given = handlers_by_label(handlers, "prototype mode", world, asynchronous=True)
-    ledger = DeliveryLedger()
+    times = processing_times(scenario)
+    ledger = DeliveryLedger(has_computers=bool(times))
+    computers = ComputerHandler(times, ledger)
     communication = communication_handler(scenario, ledger)
     builder = SimulationBuilder(
         SimulationConfiguration(
@@ -70,6 +73,8 @@ def build_simulation(
         replay.watch_messages(communication)
         replay.watch_paths(mobility, scenario)
     builder.add_handler(communication).add_handler(TimerHandler()).add_handler(mobility)
+    if times:
+        builder.add_handler(computers)
     for handler in given.values():
         builder.add_handler(handler)
     for spec in scenario.nodes:
@@ -85,6 +90,7 @@ def build_simulation(
         let_clock_drift(provider, scenario.nodes[node.id].drift_rate)
         if replay is not None:
             replay.watch_node(node)
+        computers.prepare(node)
         record_node(node, recorded.get(node.id), replay)
 
     simulator = builder.prepare_nodes(prepare).build()
@@ -134,6 +140,16 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     return mobility
 
 
+def processing_times(scenario: Scenario) -> dict[int, ProcessingTime]:
+    """Return the processing times of the nodes whose computers take time, by id."""
+    spreads = (spec.computer.get("processing_time_spread") for spec in scenario.nodes)
+    return {
+        spec.id: ProcessingTime(spec.processing_time_s, 0.0 if spread is None else float(spread.value))
+        for spec, spread in zip(scenario.nodes, spreads, strict=True)
+        if spec.processing_time_s > 0
+    }
+
+
 def airframe_of(spec: NodeSpec) -> Airframe:
     """Return the vehicle of a node. Its reader has checked the values."""
     given = {field.name: spec.mobility.get(field.name) for field in dataclasses.fields(Airframe)}
@@ -180,6 +196,7 @@ def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> Non
         ("position_error", "position_error_m"),
         ("position_error_time", "position_error_time_s"),
         ("position_error_ratio", "position_error_ratio"),
+        ("command_delay", "command_delay_s"),
     ):
         if (setting := spec.mobility.get(field)) is not None:
             numbers[argument] = float(setting.value)

@@ -414,6 +414,7 @@ NODE_KEYS: tuple[Key, ...] = (
     *PROTOCOL_KEYS,
     *MOBILITY_KEYS,
     DRIFT_RATE,
+    *_ENGINE["computer"],
     NUM_WLAN_INTERFACES,
     *WLAN_KEYS,
 )

@@ -149,6 +149,7 @@ class NodeSpec:
         wlan: Its network interfaces, at least one.
         protocol_sources: The places of the parameters, and under "" that of the protocol.
         node: Settings of the node itself: the number of its interfaces, and its clock.
+        computer: Fields of ComputerConfig that are set.
         autopilot: The autopilot that flies it, or None. The mobility is massless then and follows it.
         idle_autopilot: Settings of an autopilot, if none flies the node.
     """
@@ -164,6 +165,7 @@ class NodeSpec:
     wlan: tuple[InterfaceSpec, ...] = (InterfaceSpec(),)
     protocol_sources: Mapping[str, Source] = field(default_factory=dict)
     node: Mapping[str, Setting] = field(default_factory=dict)
+    computer: Mapping[str, Setting] = field(default_factory=dict)
     autopilot: AutopilotSpec | None = None
     idle_autopilot: Mapping[str, Setting] = field(default_factory=dict)
 
@@ -186,6 +188,12 @@ class NodeSpec:
         """How much faster than simulated time its clock runs, as a ratio: 1e-6 for 1 ppm."""
         drift = self.node.get("drift_rate_ppm")
         return 0.0 if drift is None else float(drift.value) * 1e-6
+
+    @property
+    def processing_time_s(self) -> float:
+        """Median of the time that its computer takes for an event of the protocol."""
+        median = self.computer.get("processing_time_s")
+        return 0.0 if median is None else float(median.value)
 
     @property
     def is_quadcopter(self) -> bool:

@@ -59,6 +59,7 @@ class _Shared:
     grid_line: Source | None
     mobility: Mapping[str, Setting]
     node: Mapping[str, Setting]
+    computer: Mapping[str, Setting]
     wlan: tuple[InterfaceSpec, ...]
     autopilot: AutopilotSpec | None
     idle_autopilot: Mapping[str, Setting]
@@ -157,6 +158,7 @@ def build_nodes(
                     wlan=shared.wlan,
                     protocol_sources=shared.protocol_sources,
                     node=shared.node,
+                    computer=shared.computer,
                     autopilot=shared.autopilot,
                     idle_autopilot=shared.idle_autopilot,
                 )
@@ -297,6 +299,7 @@ class _NodeBuilder:
             first_of_grid(position) if has_position else None,
             mobility=mobility,
             node=read_struct("node", found, self._settings, path_of, self._errors),
+            computer=read_struct("computer", found, self._settings, path_of, self._errors),
             wlan=wlan,
             autopilot=autopilot,
             idle_autopilot=autopilot_settings if autopilot is None else {},
@@ -322,6 +325,7 @@ def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
         protocol_sources=other.protocol_sources,
         mobility=other.mobility if other.mobility == made.mobility else made.mobility,
         node=other.node if other.node == made.node else made.node,
+        computer=other.computer if other.computer == made.computer else made.computer,
     )
 
 

@@ -253,6 +253,12 @@ class EventLoop:
         return None
 
 
+def time_after(now_s: float, delay_s: float) -> float:
+    """Return the time `delay_s` after `now_s`, in seconds: an integer of picoseconds, as in the engine."""
+    ps_per_s = 1e12
+    return max((round(now_s * ps_per_s) + round(delay_s * ps_per_s)) / ps_per_s, now_s)
+
+
 MOST_AT_ONE_INSTANT = 1_000_000
 """Limit of timers, or of messages, of one node at one instant. The engine has the same limit. Floods stay far
 below it: if each of a thousand nodes floods one message, each node sends a thousand."""

@@ -42,6 +42,7 @@ public:
             config.mobility.type_name = bytes_.name(mobility_type_names);
             fields(MobilityConfig::schema, &config.mobility);
             fields(WindConfig::schema, &config.wind);
+            fields(ComputerConfig::schema, &config.computer);
         }
         config.mobility.telemetry_interval_s = bytes_.flag() ? bytes_.number(1) : 0;
         return config;

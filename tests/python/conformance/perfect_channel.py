@@ -31,6 +31,8 @@ class Case:
         telemetry_interval_s: 0 for none.
         speed_mps: Initial speed of all vehicles.
         duration_s: Duration of the run.
+        processing_time_s: Median of the processing time of all computers; 0 for none.
+        processing_time_spread: Standard deviation of its logarithm.
     """
 
     positions: Sequence[Position]
@@ -39,6 +41,8 @@ class Case:
     telemetry_interval_s: float = 0.0
     duration_s: float = 1.0
     speed_mps: float = 10.0
+    processing_time_s: float = 0.0
+    processing_time_spread: float = 0.0
 
     def run(self, mode: str, *protocols: type[IProtocol]) -> RunResult:
         """Run it in one of `MODES`. The last protocol also runs on all further nodes."""
@@ -58,6 +62,10 @@ class Case:
                 mobility={
                     "telemetry_interval_s": _setting(self.telemetry_interval_s),
                     "speed_mps": _setting(self.speed_mps),
+                },
+                computer={
+                    "processing_time_s": _setting(self.processing_time_s),
+                    "processing_time_spread": _setting(self.processing_time_spread),
                 },
                 wlan=(InterfaceSpec(radio={"communication_range_m": _setting(self.range_m)}),),
             )

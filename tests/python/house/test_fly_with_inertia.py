@@ -58,8 +58,9 @@ def test_its_measured_vehicle_takes_as_long(root: Path, tmp_path: Path) -> None:
         re.MULTILINE,
     )
     assert len(rows) == 3
+    delay_s = float(scenario.nodes[0].mobility["command_delay_s"].value)
     for leg_m, in_the_field, here, by_default in (map(float, row) for row in rows):
-        assert duration_s(leg_m, speed_mps, measured) == pytest.approx(here, abs=0.006)
+        assert delay_s + duration_s(leg_m, speed_mps, measured) == pytest.approx(here, abs=0.006)
         assert duration_s(leg_m, 5.0, Airframe()) == pytest.approx(by_default, abs=0.006)
         assert here == pytest.approx(in_the_field, rel=0.03)
 

@@ -250,6 +250,14 @@ def test_speed_is_for_nodes_that_move(findings: Findings) -> None:
     assert '`*.uavs[*].mobility.typename = "MasslessMobility", ' in finding.message
 
 
+def test_the_delay_of_commands_is_not_for_autopilots(findings: Findings) -> None:
+    delay, flown = f"{UAVS}.mobility.commandDelay=1s", f'{UAVS}.mobility.typename="ArdupilotMobility"'
+    assert findings(delay) == []
+    assert findings(f"{UAVS}.mobility.drag=0.5", flown) == []
+    (finding,) = findings(delay, flown)
+    assert '`*.uavs[*].mobility.typename = "MasslessMobility" or "QuadcopterMobility"`' in finding.message
+
+
 def test_what_one_node_reads_is_no_finding(findings: Findings) -> None:
     assert (
         findings("**.rateControl.interval=30ms", '*.uavs[1].**.rateControl.typename="ArfRateControl"') == []

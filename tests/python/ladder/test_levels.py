@@ -49,6 +49,9 @@ def test_the_default_radio_has_no_effect_beyond_noise(make_campaign: Callable[..
         ('*.nodes[1].wlan[*].radio.antenna.typename = "DipoleAntenna"', ["antennas"]),
         ("*.nodes[1].mobility.positionError = 1m", ["position"]),
         ("*.wind.speed = 5mps", []),  # nothing that it acts on
+        ("*.nodes[1].mobility.commandDelay = 1s", []),  # a node that does not move
+        ("*.nodes[1].computer.processingTime = 0.4ms", ["computer"]),
+        ("*.nodes[1].computer.processingTimeSpread = 1", []),
         ("*.nodes[1].clock.oscillator.driftRate = 5ppm", ["clocks"]),
         ("*.nodes[1].clock.oscillator.driftRate = 0ppm", []),
     ],
@@ -57,6 +60,14 @@ def test_each_effect_of_the_scenario_is_a_level(
     make_campaign: Callable[..., Campaign], line: str, added: list[str]
 ) -> None:
     assert names(make_campaign(file=line)) == [*RADIO, *added]
+
+
+@pytest.mark.parametrize(("delay", "added"), [("0.5s", ["commands"]), ("0s", [])])
+def test_a_delay_of_commands_is_a_level(
+    make_campaign: Callable[..., Campaign], delay: str, added: list[str]
+) -> None:
+    moves = '*.nodes[1].mobility.typename="MasslessMobility"'
+    assert names(make_campaign(moves, f"*.nodes[1].mobility.commandDelay={delay}")) == [*RADIO, *added]
 
 
 @pytest.mark.parametrize(

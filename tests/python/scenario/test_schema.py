@@ -38,6 +38,7 @@ def test_each_declared_field_is_one_of_the_engine():
         "mac": interface.mac,
         "csma": interface.csma,
         "wind": _netsim.WindConfig(),
+        "computer": _netsim.ComputerConfig(),
     }
     for struct, keys in engine_keys().items():
         for key in keys:

@@ -2,8 +2,8 @@
 
 import logging
 import random
-from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable
+from collections import Counter, defaultdict
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any, TypeAlias, cast
@@ -24,18 +24,44 @@ from gradysim.simulator.validation import checked_configuration
 
 _logger = logging.getLogger(__name__)
 
+_US_PER_S = 1e6
+
 KINDS = {CommunicationCommandType.BROADCAST: "broadcast", CommunicationCommandType.SEND: "unicast"}
 
 
 class _Arrivals:
-    """Deliveries of one kind of message with the same delay."""
+    """Deliveries of one kind of message with the same delay.
+
+    Attributes:
+        count: All of them.
+        waiting: Those of which the receiver's computer has not processed the message.
+        waits: The others that waited for a computer, by the time from arrival to handling; us, rounded.
+    """
 
     def __init__(self) -> None:
         self.count = 0
+        self.waiting = 0
+        self.waits: Counter[int] = Counter()
 
     def deliver(self, receive: Callback) -> None:
         self.count += 1
         receive()
+
+    def handled(self, arrived_s: float, now_s: float) -> None:
+        self.waiting -= 1
+        self.waits[round((now_s - arrived_s) * _US_PER_S)] += 1
+
+    def by_delay(self, delay_s: float) -> Iterator[tuple[float, int]]:
+        yield delay_s, self.count - self.waiting - self.waits.total()
+        yield from ((delay_s + wait_us / _US_PER_S, count) for wait_us, count in self.waits.items())
+
+
+def _sums(delivered: Mapping[float, _Arrivals]) -> dict[float, int]:
+    sums: Counter[float] = Counter()
+    for delay_s, arrivals in delivered.items():
+        for total_s, count in arrivals.by_delay(delay_s):
+            sums[total_s] += count
+    return dict(sums)
 
 
 class _Counts:
@@ -49,12 +75,15 @@ class _Counts:
 class DeliveryLedger:
     """Counts messages and their deliveries, one per receiver, in one simulation at a time."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, has_computers: bool = False) -> None:
+        """Count from 0. With `has_computers`, messages may wait at their receivers: see `handed_over`."""
+        self._has_computers = has_computers
         self.clear()
 
     def clear(self) -> None:
         """Set all counts to 0."""
         self._counts = {kind: _Counts() for kind in KINDS}
+        self._arriving: _Arrivals | None = None
 
     def note(
         self,
@@ -67,13 +96,30 @@ class DeliveryLedger:
     ) -> list[ScheduledEvent]:
         """Count a message, and return its delivery events so that they count themselves when they run."""
         counts = self._counts[kind]
-        deliver = counts.delivered[delay_s].deliver
+        arrivals = counts.delivered[delay_s]
+        deliver = partial(self._deliver, arrivals) if self._has_computers else arrivals.deliver
         counted: list[ScheduledEvent] = [(partial(deliver, receive), context) for receive, context in copies]
         counts.sent += 1
         counts.carried += len(counted)
         counts.lost += lost
         counts.out_of_range += out_of_range
         return counted
+
+    def _deliver(self, arrivals: _Arrivals, receive: Callback) -> None:
+        self._arriving = arrivals
+        arrivals.deliver(receive)
+        self._arriving = None
+
+    def handed_over(self, now_s: float) -> Callable[[float], None] | None:
+        """Note that the message under way waits for a computer. None if no message is being delivered.
+
+        The returned function takes the time at which the protocol gets it, in seconds.
+        """
+        arrivals = self._arriving
+        if arrivals is None:
+            return None
+        arrivals.waiting += 1
+        return partial(arrivals.handled, now_s)
 
     def message_fates(self) -> dict[str, dict[str, int]]:
         """Return the outcomes of the messages so far: {kind: {outcome: count}}.
@@ -89,10 +135,7 @@ class DeliveryLedger:
 
     def delays(self) -> dict[str, dict[float, int]]:
         """Return the delays of the deliveries so far: {kind: {delay in s: count}}."""
-        return {
-            name: {delay_s: arrivals.count for delay_s, arrivals in self._counts[kind].delivered.items()}
-            for kind, name in KINDS.items()
-        }
+        return {name: _sums(self._counts[kind].delivered) for kind, name in KINDS.items()}
 
     def frame_fates(self) -> dict[str, dict[str, int]]:
         """Return the outcomes of the deliveries so far: {kind: {outcome: count}}.

@@ -9,7 +9,7 @@ _logger = logging.getLogger(__name__)
 
 StepHook = Callable[[int, float], None]
 
-WORLD = ("communication", "timer", "mobility")
+WORLD = ("communication", "timer", "mobility", "computer")
 """Labels of handlers that every run of a scenario makes itself."""
 
 

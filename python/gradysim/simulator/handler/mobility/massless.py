@@ -18,9 +18,10 @@ from gradysim.protocol.messages.mobility import (
     MobilityCommandType,
 )
 from gradysim.protocol.position import Position
-from gradysim.simulator.event import EventLoop
+from gradysim.simulator.event import EventLoop, time_after
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.handler.mobility.updates import TelemetryGroup, UpdateTimes
+from gradysim.simulator.log import context_of
 from gradysim.simulator.node import Node
 from gradysim.simulator.validation import check_reference, checked_configuration
 
@@ -53,6 +54,7 @@ class _NodeSettings:
     position_error_m: float = 0.0
     position_error_time_s: float = POSITION_ERROR_TIME_S
     position_error_ratio: float = POSITION_ERROR_RATIO
+    command_delay_s: float = 0.0
 
 
 class MasslessMobilityHandler(INodeHandler):
@@ -96,6 +98,7 @@ class MasslessMobilityHandler(INodeHandler):
         position_error: float = 0.0,
         position_error_time: float = POSITION_ERROR_TIME_S,
         position_error_ratio: float = POSITION_ERROR_RATIO,
+        command_delay: float = 0.0,
     ) -> None:
         """Set how one node moves, before it is registered. It holds in every simulation of this handler.
 
@@ -111,6 +114,7 @@ class MasslessMobilityHandler(INodeHandler):
                 >= 0.
             position_error_time: Time in which this error changes, its correlation time; s, > 0.
             position_error_ratio: Standard deviation of the error of z over that of a horizontal axis, >= 0.
+            command_delay: Time from a command until the vehicle obeys it; s, >= 0.
 
         Raises:
             ValueError: A number is outside its range.
@@ -123,6 +127,7 @@ class MasslessMobilityHandler(INodeHandler):
         checked_number(f"position_error of node {node_id}", position_error, 0, unit="m")
         checked_number(f"position_error_time of node {node_id}", position_error_time, 0, above=True, unit="s")
         checked_number(f"position_error_ratio of node {node_id}", position_error_ratio, 0)
+        checked_number(f"command_delay of node {node_id}", command_delay, 0, unit="s")
         rate = self._configuration.update_rate
         if telemetry_interval is not None and telemetry_interval != 0:
             checked_number(f"telemetry_interval of node {node_id}", telemetry_interval, 0, unit="s")
@@ -138,6 +143,7 @@ class MasslessMobilityHandler(INodeHandler):
             position_error,
             position_error_time,
             position_error_ratio,
+            command_delay,
         )
         if path is not None:
             self.paths[node_id] = path
@@ -182,7 +188,7 @@ class MasslessMobilityHandler(INodeHandler):
             self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node, told)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Carry out GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter.
+        """Carry out GOTO_COORDS, GOTO_GEO_COORDS, or SET_SPEED with one parameter, after the command delay.
 
         It holds for the whole step of the next update. So a vehicle may turn up to one `update_rate` too
         early. A timer at 1 s runs before the update at 1 s: the vehicle turns at its position of 0.99 s.
@@ -198,6 +204,19 @@ class MasslessMobilityHandler(INodeHandler):
         can_move = node.id not in self._settings or not self._settings[node.id].refuses_commands
         if wrong := wrong_mobility(command, node.id, can_move):
             raise MasslessMobilityException(wrong)
+        settings = self._settings.get(node.id)
+        if settings is None or settings.command_delay_s == 0:
+            self.obey(command, node)
+            return
+        event_loop = self._event_loop
+        assert event_loop is not None
+        due = time_after(event_loop.current_time, settings.command_delay_s)
+        obey, context = partial(self.obey, command, node), context_of(node, "command")
+        # In two events, so that an update at that time comes first: it moves the node up to there.
+        event_loop.schedule_event(due, partial(event_loop.schedule_event, due, obey, context), context)
+
+    def obey(self, command: MobilityCommand, node: Node[Any]) -> None:
+        """Carry out GOTO_COORDS or SET_SPEED now, which are valid."""
         if command.command_type == MobilityCommandType.SET_SPEED:
             self.speeds[node.id] = float(cast("float", command.param_1))
         else:

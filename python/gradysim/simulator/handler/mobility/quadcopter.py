@@ -70,9 +70,9 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
         super().initialize()
         self._schedule_flight()
 
-    def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
-        """Carry out a command. Raise MasslessMobilityException if it is not valid."""
-        super().handle_command(command, node)
+    def obey(self, command: MobilityCommand, node: Node[Any]) -> None:
+        """Carry out a valid command now."""
+        super().obey(command, node)
         if node.id in self._flown:
             vehicle = self._flown[node.id]
             vehicle.speed_mps = self.speeds[node.id]
