@@ -120,7 +120,8 @@ verify: build $(STAMPS)/test system-gtest test-slow  ## Compare with INET, ns-3 
 bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to their goals, and a profile by layer.
 	cmake -S cpp --preset bench --log-level=WARNING
 	cmake --build build/bench
-	build/bench/netsim_bench
+	build/bench/netsim_bench --benchmark_out=build/bench/figures.json --benchmark_out_format=json
+	PYTHONPATH=bench/python $(BIN)/python -m findings build/bench/figures.json
 	build/bench/netsim_layers 1000
 	build/bench/netsim_layers 10000
 	@failed=0; for script in bench/python/*.py; do echo "== $$script"; $(BIN)/python $$script || failed=1; done; exit $$failed

@@ -17,6 +17,7 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from findings import record, recorded
 from gradysim.integrated.run import run
 from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
@@ -26,8 +27,9 @@ CONFIG = ROOT / "configs" / "reference" / "beacons.ini"
 SOURCE = ROOT / "bench" / "ns3" / "beacons.cpp"
 PROGRAM = ROOT / "build" / "bench" / "beacons_ns3"
 MODULES = ("core", "network", "mobility", "propagation", "wifi")
-INET_CPU_S = {200: 32.46, 500: 352.41}
-NS3_FASTEST_CPU_S = {200: 11.549, 500: 134.778}
+RECORDED = recorded()
+INET_CPU_S = {nodes: float(RECORDED[f"inet.beacons_{nodes}"]["value"]) for nodes in (200, 500)}
+NS3_FASTEST_CPU_S = {nodes: float(RECORDED[f"ns3.beacons_{nodes}"]["value"]) for nodes in (200, 500)}
 INET_GOAL, NS3_GOAL, GOAL_500_S = 200.0, 75.0, 1.0
 ROUNDS = 5
 
@@ -93,6 +95,10 @@ def main() -> bool:
             ratios.append(ns3(program, 200)["cpu_s"] / cpu_s[-1])
     large_s = median(native(500).cpu_s for _ in range(3))
     small_s = median(cpu_s)
+    (in_python,) = load_scenarios(CONFIG, "Python200")
+    python_s = median(run(in_python).cpu_s for _ in range(3))
+    for name, seconds in (("200", small_s), ("500", large_s), ("python_200", python_s)):
+        record(f"beacons_native.{name}", f"{seconds:.3g}", "s", "bench/python/beacons_native.py")
     inet_ratio, ns3_ratio = INET_CPU_S[200] / small_s, NS3_FASTEST_CPU_S[200] / small_s
     print(f"200 nodes: {small_s:.3f} s")
     print(f"    INET, recorded, / that: {inet_ratio:.0f} (goal: at least {INET_GOAL:g})")

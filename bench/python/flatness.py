@@ -14,6 +14,8 @@ from math import sqrt
 from pathlib import Path
 from statistics import mean, median
 
+from findings import record
+
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "reference" / "beacons.ini"
 NODES_PER_KM2 = 100
 GOAL_TIMES = 1.3
@@ -54,6 +56,7 @@ def main() -> bool:
         f"100 nodes: {median(few_ns):.0f} ns for each delivered frame; 10,000 nodes: {median(many_ns):.0f} ns"
     )
     print(f"    the second / the first, median of {ROUNDS}: {times:.2f} (goal: at most {GOAL_TIMES:g})")
+    record("flatness.ratio", f"{times:.2f}", "", "bench/python/flatness.py")
     return times > GOAL_TIMES
 
 

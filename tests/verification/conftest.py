@@ -1,5 +1,6 @@
 """Fixtures of the comparisons: they report findings, and with --verify they draw pictures."""
 
+import itertools
 import json
 import re
 from collections.abc import Callable
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from findings import record
 from verification.finding import FieldRow, Finding, field_table, table
 
 _PAGES = Path(__file__).parents[2] / "docs" / "verification"
@@ -41,11 +43,34 @@ def _engine() -> None:
 
 
 @pytest.fixture
-def report(record_property: Callable[[str, object], None]) -> Callable[[Finding], None]:
+def cited(
+    record_property: Callable[[str, object], None], request: pytest.FixtureRequest
+) -> Callable[[str], None]:
+    """`cited(value)` writes a row of findings.csv, with --verify.
+
+    Its id is the name of the file and of the test, with a number if the test has several.
+    """
+    count = itertools.count(1)
+
+    def write_down(value: str) -> None:
+        number = next(count)
+        file, test = (each.removeprefix("test_") for each in (request.path.stem, request.node.name))
+        name = f"{file}.{test}" + f".{number}" * (number > 1)
+        command = f"pytest tests/verification/{request.path.name} --verify"
+        record_property("cited", json.dumps([name, value, "", command]))
+
+    return write_down
+
+
+@pytest.fixture
+def report(
+    record_property: Callable[[str, object], None], cited: Callable[[str], None]
+) -> Callable[[Finding], None]:
     """`report(finding)` records the finding, and fails the test if it does not agree."""
 
     def write_down(finding: Finding) -> None:
         record_property("finding", json.dumps(asdict(finding)))
+        cited(finding.number)
         assert finding.agrees, str(finding)
 
     return write_down
@@ -53,7 +78,9 @@ def report(record_property: Callable[[str, object], None]) -> Callable[[Finding]
 
 @pytest.fixture
 def field(
-    record_property: Callable[[str, object], None], request: pytest.FixtureRequest
+    record_property: Callable[[str, object], None],
+    cited: Callable[[str], None],
+    request: pytest.FixtureRequest,
 ) -> Callable[[FieldRow], None]:
     """`field(row)` records a row of field.md, and fails the test if the page has another one.
 
@@ -62,6 +89,7 @@ def field(
 
     def write_down(row: FieldRow) -> None:
         record_property("field", json.dumps(asdict(row)))
+        cited(f"measured: {row.measured}; engine: {row.engine}; fitted: {row.fitted or 'nothing'}")
         if not request.config.getoption("--verify"):
             assert str(row) in _FIELD.read_text(encoding="utf-8").splitlines()
 
@@ -90,6 +118,8 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: p
     ]
     findings = [Finding(**json.loads(value)) for name, value in properties if name == "finding"]
     rows = [FieldRow(**json.loads(value)) for name, value in properties if name == "field"]
+    for arguments in (json.loads(value) for name, value in properties if name == "cited"):
+        record(*arguments)
     terminalreporter.section("findings")
     for found in (*findings, *rows):
         terminalreporter.write_line(str(found))

@@ -1,4 +1,4 @@
-"""docs/reference/differences.md agrees with the profiles, the table of keys and the verification."""
+"""docs/reference/differences.md agrees with the profiles and the table of keys."""
 
 import re
 from pathlib import Path
@@ -6,28 +6,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.scenario.ini import PROFILES
-from python.house.verified import FIGURE, repeats
 
 PAGE = "docs/reference/differences.md"
-
-SOURCES = {
-    "EIFS after a broken frame": "with INET's EIFS, 100 seeds",
-    "window after a message that is given up": {
-        "24.5 %": "with INET's contention window: messages received",
-        "50.5 %": "with INET's contention window: messages received",
-        "3.2 times": "by default 3.2 times as many frames",
-    },
-    "own frames set the NAV": "costs 8 % here",
-    "NAV of an RTS that no frame follows": "station 3 of the chain of five",
-    "a frame that arrives at the instant in which a slot ends": "5 to 15 stations have",
-    "preamble detection": "6 and 54 Mbps, 1 to 30 stations, against INET and ns-3",
-    "channel after a lost PHY header": "Without that rule, station 1",
-    "bit errors": "without RTS/CTS, ns-3's table of error rates",
-    "rest after an exchange": "no interframe space",
-    "wait for an ACK": "longer wait for an ACK",
-    "the channel is busy if it is so": "assessment of the whole 128",
-}
-"""The statement of the verification for the figures of a row, or for each of them."""
 
 
 def rows(text: str) -> list[dict[str, str]]:
@@ -71,12 +51,3 @@ def test_each_line_of_a_profile_has_a_row_with_its_number(
         if re.match(r"-?\d", value):
             numbers = (value, re.sub(r"(?<=\d)(?=[a-zA-Z])", " ", value), value.replace("4us", "4 µs"))
             assert any(number in row[column] for number in numbers), (key, row[column])
-
-
-def test_its_figures_are_those_of_the_verification(root: Path, table: list[dict[str, str]]) -> None:
-    found = {row["rule"]: FIGURE.findall(row.get("effect of the default", "")) for row in table}
-    assert {rule for rule, figures in found.items() if figures} == set(SOURCES)
-    for rule, source in SOURCES.items():
-        for figure in found[rule]:
-            phrase = source if isinstance(source, str) else source[figure]
-            assert repeats(root, figure, phrase), (rule, figure)

@@ -51,3 +51,16 @@ def test_every_decision_is_listed(root: Path, project_files: ProjectFiles) -> No
     pages = [file for file in project_files(".md") if file.parent == folder and file.name != "README.md"]
     assert pages
     assert [page.name for page in pages if f"({page.name})" not in index] == []
+
+
+def test_every_decision_has_its_date_and_those_that_changed_it(root: Path) -> None:
+    pages = sorted((root / "docs/decisions").glob("[0-9]*.md"))
+    since = {page.name: re.findall(r"^\*\*Since\.\*\* .*$", page.read_text(), re.MULTILINE) for page in pages}
+    assert {name: lines for name, lines in since.items() if len(lines) != 1} == {}
+    date = {name: re.findall(r"\d{4}-\d\d-\d\d", line)[0] for name, (line,) in since.items()}
+    for name, (line,) in since.items():
+        later = re.findall(r"(?:Changed|Superseded.*?) on (\S+|the same day) by \[[^]]*\]\((\S+)\)", line)
+        assert len(later) == line.count("](")
+        for day, by in later:
+            assert by > name
+            assert date[by] <= (date[name] if day == "the same day" else day), name
