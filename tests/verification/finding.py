@@ -2,7 +2,7 @@
 
 from dataclasses import asdict, dataclass, fields
 
-AGREES, FITTED, DIFFERS = "agrees", "fitted", "**does not agree**"
+AGREES, FITTED, DIFFERS, SHOWN = "agrees", "fitted", "**does not agree**", "shown only"
 
 
 @dataclass(frozen=True)
