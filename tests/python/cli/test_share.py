@@ -63,6 +63,8 @@ def test_the_command_prints_what_it_read(gradysim, monkeypatch):
         ("auto/4", {"PBS_ARRAY_INDEX": "4"}, Share(0, 4)),
         ("auto/4", {"PBS_ARRAYID": "3"}, Share(3, 4)),
         ("auto/100", SLURM, Share(13, 100)),
+        ("auto/5", OPEN_MPI, Share(1, 5)),
+        ("auto/100", {**SLURM, **MPICH}, Share(13 * 3 + 2, 100)),
         ("2/3", SLURM, Share(2, 3)),
     ],
 )

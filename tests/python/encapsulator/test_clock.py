@@ -1,10 +1,13 @@
 """A clock that runs fast or slow, in both modes."""
 
+import types
 from collections.abc import Callable
+from functools import partial
 
 import pytest
 
 from gradysim import start
+from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.scenario import Scenario
 
@@ -38,6 +41,23 @@ def test_timers_follow_the_clock_of_the_node(
         due = run.node("uavs[0]").protocol.due if run.run_until(4.9) else []
         assert len(due) == int(4.9 * (1 + rate_ppm * 1e-6) + 1e-9)
         assert due == pytest.approx([1.0 * (number + 1) for number in range(len(due))])
+
+
+@pytest.mark.parametrize("rate", [-0.07, -0.03, 0.07])
+def test_a_timer_for_the_present_is_not_moved_into_the_past(rate: float) -> None:
+    times = [number / 7 for number in range(1, 1000)]
+    due: list[float] = []
+
+    def schedule_timer(timer: str, timestamp: float) -> None:
+        due.append(timestamp)
+
+    for time in times:
+        provider = types.SimpleNamespace(current_time=partial(float, time), schedule_timer=schedule_timer)
+        let_clock_drift(provider, rate)  # type: ignore[arg-type]
+        provider.schedule_timer("now", provider.current_time())
+    assert any(time * (1 + rate) / (1 + rate) < time for time in times)  # so rounding matters
+    assert all(at >= time for at, time in zip(due, times, strict=True))
+    assert due == pytest.approx(times)
 
 
 @MODES
