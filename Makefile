@@ -30,7 +30,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture lint lint-python lint-cpp lint-files format build verify bench figures pictures schema fingerprints golden pages docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture lint lint-python lint-cpp lint-viewer lint-files format build verify bench figures pictures schema fingerprints golden pages docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -53,7 +53,8 @@ test-python: build $(STAMPS)/test system-tshark  ## Python tests, in parallel, w
 coverage: build $(STAMPS)/test system-tshark  ## The Python tests, and for each file the lines and branches that they do not reach.
 	$(BIN)/python -m pytest --numprocesses=$(WORKERS) --dist=loadfile --cov --cov-branch --cov-report=term-missing:skip-covered
 
-test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays, in Chromium.
+test-viewer: build $(STAMPS)/test $(node_packages) system-chromium  ## Tests of the page of replays: of its parts, and in Chromium.
+	cd viewer && npm run --silent test
 	$(BIN)/python -m pytest tests/viewer --numprocesses=auto --dist=worksteal
 
 test-threads: $(STAMPS)/build system-gtest  ## C++ tests under ThreadSanitizer.
@@ -80,7 +81,7 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUTES=20 long; prints what was lost.
 	cd tests && "$(CURDIR)/$(BIN)/python" -m python.torture $(MINUTES)
 
-lint: lint-python lint-cpp lint-files docs  ## All checks of style, types, layers and links: Python, C++, files of the repository, pages.
+lint: lint-python lint-cpp lint-viewer lint-files docs  ## All checks of style, types, layers and links: Python, C++, TypeScript, files of the repository, pages.
 
 lint-python: build $(STAMPS)/test $(STAMPS)/lint  ## ruff, mypy --strict, stubtest, lint-imports, and the English of all files.
 	ruff check $(python_checked)
@@ -94,6 +95,9 @@ lint-cpp: $(STAMPS)/build $(STAMPS)/lint system-gtest  ## clang-format, clang-ti
 	cmake -S cpp --preset lint --log-level=WARNING \
 	  -DPython_EXECUTABLE="$(CURDIR)/$(BIN)/python" -Dpybind11_DIR="$$($(BIN)/python -m pybind11 --cmakedir)"
 	@$(MAKE) --no-print-directory --jobs=$$(nproc) -f cpp/clang-tidy.mk
+
+lint-viewer: $(node_packages)  ## The TypeScript compiler, and Biome.
+	cd viewer && npm run --silent check
 
 lint-files: $(STAMPS)/lint  ## Workflows, the forms of issues, the citation, the hooks of git.
 	check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
@@ -129,8 +133,8 @@ bench: build system-benchmark system-ns3  ## Benchmarks, with the distance to th
 docs: build $(STAMPS)/docs  ## Build the documentation site, build/site, and check its links.
 	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going docs build/site
 
-viewer: $(node_packages)  ## Rebuild the page of replays, python/gradysim/viewer/page.html, from viewer/.
-	cd viewer && npm run --silent check && npm run --silent build
+viewer: lint-viewer  ## Rebuild the page of replays, python/gradysim/viewer/page.html, from viewer/.
+	cd viewer && npm run --silent build
 
 figures: build $(STAMPS)/test  ## Draw those of the pictures that are figures: run the commands of their how-to pages.
 	sed -n '/^```sh$$/,/^```$$/{/^```/d;p}' docs/how-to/plot-a-study.md docs/how-to/compare-two-studies.md | sh -e

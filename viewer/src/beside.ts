@@ -3,9 +3,10 @@
 
 import { subtitleOf, titleOf, warningOf } from "./about";
 import { Stage } from "./capture";
-import { outcomeWords, paintOutcome } from "./colors";
+import { paintOutcome } from "./colors";
 import { nodeChoice } from "./controls";
 import { countText, make, shareText } from "./dom";
+import { outcomeWords } from "./frame_text";
 import { Page } from "./page";
 import { Frame, Replay, startOf } from "./replay";
 import { setText, showRows } from "./rows";
@@ -242,7 +243,7 @@ export class Beside extends Page {
         row.classList.toggle("sum", !names.has(name));
         paintOutcome(row, name);
         setText(row.children[0].children[1], outcomeWords(name));
-        columnsOf(counts).forEach((text, place) => setText(row.children[place + 1], text));
+        for (const [place, text] of columnsOf(counts).entries()) setText(row.children[place + 1], text);
         counts.forEach((count, place) => {
           (row.children[place + 1] as HTMLElement).title = shareText(count / columns[place].total);
         });

@@ -95,7 +95,7 @@ export class Charts {
     const timeS = this.pointedS ?? this.timeS;
     this.showTime(timeS);
     for (const { curves, values } of this.charts)
-      curves.forEach(({ series }, place) => setText(values[place], valueText(series, timeS)));
+      for (const [place, { series }] of curves.entries()) setText(values[place], valueText(series, timeS));
   }
 
   private add(curves: Curve[], areSeveral: boolean): Chart {

@@ -45,11 +45,6 @@ export function paintOutcome(element: HTMLElement, name: string): void {
   element.style.setProperty("--dash", `${outcomeDash(name) || 100}px`);
 }
 
-/** "receiver locked": the words of the summary of a run. */
-export function outcomeWords(name: string): string {
-  return name.replaceAll("_", " ");
-}
-
 export function groupColor(group: number): string {
   return pick(GROUPS[group % GROUPS.length]);
 }

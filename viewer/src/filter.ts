@@ -1,8 +1,7 @@
 // The filter of frames: `node:3 outcome:interference timer:beacon`. All terms have to fit.
 
-import { outcomeWords } from "./colors";
 import { BROADCAST } from "./format";
-import { causeText, messageOf, senderOf } from "./frame_text";
+import { causeText, messageOf, outcomeWords, senderOf } from "./frame_text";
 import { Reception } from "./receptions";
 import { Chunk, Frame, Replay } from "./replay";
 

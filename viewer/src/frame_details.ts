@@ -1,9 +1,9 @@
 // The chosen frame: what became of it where, who interfered.
 
 import { Interferer } from "./air";
-import { outcomeColor, outcomeWords } from "./colors";
+import { outcomeColor } from "./colors";
 import { button, countText, distanceText, durationText, make, timeText } from "./dom";
-import { causeText, messageOf, routeText, senderOf } from "./frame_text";
+import { causeText, messageOf, outcomeWords, routeText, senderOf } from "./frame_text";
 import { between, farTexts, Loss, lossTexts, readLosses } from "./losses";
 import { Reception } from "./receptions";
 import { Frame, Replay, startOf } from "./replay";

@@ -4,6 +4,11 @@ import { BROADCAST } from "./format";
 import { Frame, Replay } from "./replay";
 import { Message } from "./texts";
 
+/** "receiver locked": the words of the summary of a run. */
+export function outcomeWords(name: string): string {
+  return name.replaceAll("_", " ");
+}
+
 export function senderOf({ chunk, row }: Frame): number {
   return chunk.frames.table.node[row];
 }

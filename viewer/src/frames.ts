@@ -1,9 +1,9 @@
 // The list of frames around the clock, with its filter.
 
-import { outcomeColor, outcomeWords } from "./colors";
+import { outcomeColor } from "./colors";
 import { make, timeText } from "./dom";
 import { Filter, KEYS } from "./filter";
-import { causeText, messageOf, routeText } from "./frame_text";
+import { causeText, messageOf, outcomeWords, routeText } from "./frame_text";
 import { Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";

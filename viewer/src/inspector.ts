@@ -1,8 +1,9 @@
 // What is known of the chosen node, or of all nodes, at the time of the clock.
 
-import { outcomeWords, paintOutcome } from "./colors";
+import { paintOutcome } from "./colors";
 import { Actions, nodeChoice } from "./controls";
 import { countText, distanceText, make, shareText, timeText } from "./dom";
+import { outcomeWords } from "./frame_text";
 import { Replay } from "./replay";
 import { setText, showRows } from "./rows";
 import { Store } from "./state";

@@ -1,6 +1,7 @@
 // The legend: what shapes and lines of the 3-D picture stand for.
 
-import { groupColor, outcomeColor, outcomeDash, outcomeWords, styleColor } from "./colors";
+import { groupColor, outcomeColor, outcomeDash, styleColor } from "./colors";
+import { outcomeWords } from "./frame_text";
 import { SHAPES } from "./shapes";
 
 const ROW_PX = 18;

@@ -2,11 +2,11 @@
 // arrow to each reception. A reception is a bar below the lane of its receiver. A cross ends the arrow of a loss.
 
 import { Picture } from "./air";
-import { inkOn, isDark, outcomeColor, outcomeDash, outcomeWords, styleColor } from "./colors";
+import { inkOn, isDark, outcomeColor, outcomeDash, styleColor } from "./colors";
 import { Actions } from "./controls";
 import { button, durationText, make, timeText } from "./dom";
 import { Table } from "./format";
-import { causeText, messageOf, routeText, senderOf } from "./frame_text";
+import { causeText, messageOf, outcomeWords, routeText, senderOf } from "./frame_text";
 import { endOf, framesOf, lanesOf, MOST_FRAMES, overlap } from "./lanes";
 import { Chunk, Frame, isSameFrame, Replay, startOf } from "./replay";
 import { setText } from "./rows";
