@@ -44,11 +44,11 @@ void bind_node(py::module_& module) {
                                })
         .def(
             "set_protocol",
-            [](Node& node, py::object protocol, py::object on_failure) {
-                node.set_protocol(
-                    std::make_unique<PythonProtocol>(std::move(protocol), std::move(on_failure)));
+            [](Node& node, py::object protocol, py::object on_failure, bool wants_failed_messages) {
+                node.set_protocol(std::make_unique<PythonProtocol>(std::move(protocol), std::move(on_failure),
+                                                                   wants_failed_messages));
             },
-            py::arg("protocol"), py::arg("on_failure"))
+            py::arg("protocol"), py::arg("on_failure"), py::arg("wants_failed_messages") = false)
         .def("set_native_protocol", &netsim::set_native_protocol, py::arg("name"),
              py::arg("parameters") = netsim::Parameters())
         .def("check_protocol", &Node::check_protocol)

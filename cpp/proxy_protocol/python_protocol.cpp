@@ -16,14 +16,16 @@ py::object interned(const char* text) {
 
 }  // namespace
 
-PythonProtocol::PythonProtocol(py::object protocol, py::object on_failure)
+PythonProtocol::PythonProtocol(py::object protocol, py::object on_failure, bool wants_failed_messages)
     : protocol_(std::move(protocol)),
       on_failure_(std::move(on_failure)),
       initialize_(interned("initialize")),
       handle_timer_(interned("handle_timer")),
       handle_packet_(interned("handle_packet")),
       handle_telemetry_(interned("handle_telemetry")),
-      finish_(interned("finish")) {}
+      finish_(interned("finish")),
+      handle_failed_message_(interned("handle_failed_message")),
+      wants_failed_messages_(wants_failed_messages) {}
 
 void PythonProtocol::initialize() {
     call(initialize_);
@@ -43,6 +45,18 @@ void PythonProtocol::handle_telemetry(const netsim::Position& position) {
 
 void PythonProtocol::finish() {
     call(finish_);
+}
+
+void PythonProtocol::handle_failed_message(const netsim::Payload& message, netsim::NodeId destination,
+                                           netsim::MessageFate reason) {
+    const py::object text = text_for(handle_failed_message_, *message);
+    const py::object receiver =
+        destination == netsim::broadcast_id ? py::none() : py::object(py::int_(destination));
+    const py::str why(netsim::message_fate_names[static_cast<std::size_t>(reason)]);
+    PyObject* arguments[] = {nullptr, protocol_.ptr(), text.ptr(), receiver.ptr(), why.ptr()};
+    check(PyObject_VectorcallMethod(handle_failed_message_.ptr(), arguments + 1,
+                                    4 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr),
+          handle_failed_message_);
 }
 
 void PythonProtocol::call(py::handle method) {

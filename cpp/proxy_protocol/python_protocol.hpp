@@ -15,14 +15,17 @@ class PythonProtocol final : public netsim::Protocol {
 public:
     // `protocol` has the five methods of IProtocol. `on_failure(exception, callback_name)` is called
     // when one of them raises, before the exception propagates through the engine to the caller of
-    // run_until.
-    PythonProtocol(pybind11::object protocol, pybind11::object on_failure);
+    // run_until. `wants_failed_messages`: whether it has handle_failed_message.
+    PythonProtocol(pybind11::object protocol, pybind11::object on_failure, bool wants_failed_messages);
 
     void initialize() override;
     void handle_timer(const std::string& timer) override;
     void handle_packet(const netsim::Payload& message) override;
     void handle_telemetry(const netsim::Position& position) override;
     void finish() override;
+    bool wants_failed_messages() const override { return wants_failed_messages_; }
+    void handle_failed_message(const netsim::Payload& message, netsim::NodeId destination,
+                               netsim::MessageFate reason) override;
 
 private:
     void call(pybind11::handle method);
@@ -38,6 +41,8 @@ private:
     pybind11::object handle_packet_;
     pybind11::object handle_telemetry_;
     pybind11::object finish_;
+    pybind11::object handle_failed_message_;
+    bool wants_failed_messages_;
 };
 
 }  // namespace proxy_protocol

@@ -219,11 +219,16 @@ class Node:
     def name(self) -> str: ...
     @property
     def position(self) -> tuple[float, float, float]: ...
-    def set_protocol(self, protocol: Any, on_failure: Callable[[BaseException, str], None]) -> None:
+    def set_protocol(
+        self,
+        protocol: Any,
+        on_failure: Callable[[BaseException, str], None],
+        wants_failed_messages: bool = ...,
+    ) -> None:
         """Give the node a protocol: any object with the five methods of IProtocol.
 
         `on_failure(exception, callback_name)` is called when one of them raises, before the exception
-        leaves `Network.run_until`.
+        leaves `Network.run_until`. `handle_failed_message` is called if the protocol wants that.
         """
     def set_native_protocol(self, name: str, parameters: Mapping[str, bool | int | float] = ...) -> None:
         """Give the node a protocol of `native_protocols()`.

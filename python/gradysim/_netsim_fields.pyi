@@ -110,6 +110,10 @@ class MacFields:
     """Largest contention window in slots; -1: that of opMode."""
     queue_capacity: int
     """Number of frames that can wait in the queue, without the one in progress."""
+    queue_when_full: str
+    """What happens to a message if the queue is full: it is dropped, or it waits in front of the queue,
+    and with it the events of its protocol, as with a socket that blocks (docs/how-to/model-a-
+    board.md)."""
     backoff_optimization: bool
     """Whether idle time before a frame arrives counts toward its wait."""
     initial_channel_busy: bool
@@ -180,6 +184,8 @@ class CsmaFields:
     """Time from listening to sending, in which the radio is deaf."""
     queue_capacity: int
     """Number of frames that can wait in the queue, without the one in progress."""
+    queue_when_full: str
+    """What happens to a message if the queue is full: see that of 802.11."""
 
 class RadioFields:
     carrier_hz: float

@@ -48,6 +48,8 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(CsmaConfig, queue_capacity), "queue.packetCapacity",
      integer().at_least(1).at_most(1'000'000),
      "number of frames that can wait in the queue, without the one in progress"},
+    {NETSIM_FIELD(CsmaConfig, queue_when_full), "queue.whenFull", one_of(when_full_names),
+     "what happens to a message if the queue is full: see that of 802.11"},
 };
 
 }  // namespace

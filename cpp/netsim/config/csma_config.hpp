@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "netsim/config/field.hpp"
+#include "netsim/config/full_queue.hpp"
 
 namespace netsim {
 
@@ -40,6 +41,7 @@ struct CsmaConfig {
     double turnaround_s = 192e-6;  // 12 symbols
 
     int queue_capacity = 100;
+    std::string queue_when_full{drop_when_full};
 
     static const Schema schema;
 

@@ -54,6 +54,11 @@ constexpr Field fields[] = {
     {NETSIM_FIELD(MacConfig, queue_capacity), "mac.dcf.channelAccess.pendingQueue.packetCapacity",
      integer().at_least(1).at_most(1'000'000),
      "Number of frames that can wait in the queue, without the one in progress"},
+    {NETSIM_FIELD(MacConfig, queue_when_full), "mac.dcf.channelAccess.pendingQueue.whenFull",
+     one_of(when_full_names),
+     "What happens to a message if the queue is full: it is dropped, or it waits in front of the queue, and "
+     "with it the "
+     "events of its protocol, as with a socket that blocks (docs/how-to/model-a-board.md)"},
     {NETSIM_FIELD(MacConfig, backoff_optimization), "mac.dcf.channelAccess.contention.backoffOptimization",
      boolean(), "Whether idle time before a frame arrives counts toward its wait"},
     {NETSIM_FIELD(MacConfig, initial_channel_busy), "mac.dcf.channelAccess.contention.initialChannelBusy",

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "netsim/config/field.hpp"
+#include "netsim/config/full_queue.hpp"
 
 namespace netsim {
 
@@ -33,6 +34,7 @@ struct MacConfig {
     int cw_max = -1;                           // -1: that of the operation mode
 
     int queue_capacity = 100;
+    std::string queue_when_full{drop_when_full};
     int mtu_bytes = 2304;  // with 28 B of IPv4 and UDP headers
     // Immediate access: idle time before the frame counts toward its wait.
     bool backoff_optimization = true;

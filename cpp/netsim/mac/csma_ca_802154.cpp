@@ -20,7 +20,7 @@ CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig&
       lifs_(SimTime::from_seconds(config.lifs_s)),
       ack_wait_(SimTime::from_seconds(config.ack_wait_s)),
       draws_(seed, radio.interface().stream(), Purpose::csma_backoff),
-      queue_(radio.node(), config.queue_capacity) {
+      queue_(radio.node(), config.queue_capacity, config.queue_when_full == block_when_full) {
     radio_.set_listener(*this);
     radio_.stop_watching_channel();
 }
@@ -38,7 +38,14 @@ void CsmaCa802154::send(NodeId destination, Payload payload, CauseId cause) {
     if (destination != broadcast_id && config_.use_acks) {
         frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
     }
-    if (queue_.add(std::move(frame)) && state_ == State::idle) {
+    if (!queue_.add(frame)) {
+        report_failure(frame, MessageFate::queue_overflow);
+        return;
+    }
+    if (queue_.has_one_in_front()) {
+        report_blocking(true);
+    }
+    if (state_ == State::idle) {
         go_on();
     }
 }
@@ -92,7 +99,7 @@ void CsmaCa802154::assessed() {
         channel_is_busy();
         return;
     }
-    queue_.begin_next();
+    begin_next();
     state_ = State::turning;
     radio_.turn_to_transmit();
     timer_ = simulator_.schedule_after(turnaround_, [this] {
@@ -106,8 +113,19 @@ void CsmaCa802154::channel_is_busy() {
         back_off();
         return;
     }
-    queue_.begin_next();
-    finish(MessageFate::channel_access_failure);
+    begin_next();
+    fail(MessageFate::channel_access_failure);
+}
+
+void CsmaCa802154::begin_next() {
+    if (queue_.begin_next()) {
+        report_blocking(false);
+    }
+}
+
+void CsmaCa802154::fail(MessageFate fate) {
+    report_failure(*queue_.in_progress(), fate);
+    finish(fate);
 }
 
 void CsmaCa802154::transmit(std::shared_ptr<const Frame> frame) {
@@ -133,7 +151,7 @@ void CsmaCa802154::transmission_ended() {
 
 void CsmaCa802154::ack_timed_out() {
     if (retries_ >= config_.max_frame_retries) {
-        finish(MessageFate::retry_limit);
+        fail(MessageFate::retry_limit);
         return;
     }
     ++retries_;

@@ -86,6 +86,8 @@ private:
     void channel_is_busy();
     void transmit(std::shared_ptr<const Frame> frame);
     void ack_timed_out();
+    void begin_next();
+    void fail(MessageFate fate);
     void finish(MessageFate fate);
     void unicast_received(const Frame& frame);
     void acknowledge(const Frame& frame);

@@ -14,7 +14,8 @@ Dcf::Dcf(Radio& radio, std::shared_ptr<const DcfParameters> parameters, std::uin
       radio_(radio),
       retry_(parameters->retry),
       contention_(*parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
-      queue_(radio.node(), parameters->config.queue_capacity),
+      queue_(radio.node(), parameters->config.queue_capacity,
+             parameters->config.queue_when_full == block_when_full),
       owned_parameters_(std::move(parameters)),
       rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
       frames_by_mode_(parameters_.has_adaptive_rate ? parameters_.modes.modes().size() : 0),
@@ -37,8 +38,12 @@ void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
     if (destination != broadcast_id) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
     }
-    if (!queue_.add(std::move(frame))) {
+    if (!queue_.add(frame)) {
+        report_failure(frame, MessageFate::queue_overflow);
         return;
+    }
+    if (queue_.has_one_in_front()) {
+        report_blocking(true);
     }
     watch_channel(simulator().now() - parameters_.longest_wait);
     if (exchange_ == Exchange::none) {
@@ -62,7 +67,9 @@ void Dcf::channel_granted() {
         return;
     }
     NETSIM_ASSERT(exchange_ == Exchange::none && response_ == Response::none);
-    queue_.begin_next();
+    if (queue_.begin_next()) {
+        report_blocking(false);
+    }
     if (in_progress().receiver != broadcast_id) {
         choose_data_mode();
     }
@@ -230,6 +237,7 @@ void Dcf::attempt_failed() {
     const bool may_go_on = was_sent && is_long(in_progress()) ? retry_.long_failed() : retry_.short_failed();
     if (!may_go_on) {
         retry_.given_up();
+        report_failure(in_progress(), MessageFate::retry_limit);
         finish(MessageFate::retry_limit);
         return;
     }

@@ -74,13 +74,25 @@ void IdealInterface::send(NodeId destination, Payload payload, CauseId cause) {
     if (!timing_.has_queue()) {
         ++on_air_;
         transmit(exchanges_.add({.frame = frame}));
-    } else if (timing_.senses_channel() &&
-               queue_.size() >= static_cast<std::size_t>(timing_.queue_capacity())) {
+    } else if (is_full() && !timing_.blocks()) {
         message_fates_.book(kind, MessageFate::queue_overflow);
+        report_failure(*frame, MessageFate::queue_overflow);
     } else {
         queue_.push(std::move(frame));
+        if (has_one_in_front()) {
+            report_blocking(true);
+        }
         wait_for_channel();
     }
+}
+
+bool IdealInterface::is_full() const {
+    return timing_.senses_channel() && queue_.size() >= static_cast<std::size_t>(timing_.queue_capacity());
+}
+
+bool IdealInterface::has_one_in_front() const {
+    return timing_.senses_channel() && timing_.blocks() &&
+           queue_.size() == static_cast<std::size_t>(timing_.queue_capacity()) + 1;
 }
 
 void IdealInterface::wait_for_channel() {
@@ -98,6 +110,9 @@ void IdealInterface::access_channel() {
         return;
     }
     const std::shared_ptr<const Frame> frame = queue_.front();
+    if (has_one_in_front()) {
+        report_blocking(false);
+    }
     queue_.pop();
     ++on_air_;
     transmit(exchanges_.add({.frame = frame}));
@@ -264,9 +279,14 @@ void IdealInterface::end_exchange(std::size_t number) {
             fate = MessageFate::retry_limit;
         }
     }
+    const bool has_failed = fate == MessageFate::out_of_range || fate == MessageFate::retry_limit;
+    const std::shared_ptr<const Frame> failed = has_failed ? exchange.frame : nullptr;
     exchanges_.take(number);
     --on_air_;
     message_fates_.book(kind, fate);
+    if (failed) {
+        report_failure(*failed, fate);
+    }
 }
 
 void IdealInterface::add_stretch(std::vector<Stretch>& stretches, const Stretch& added) const {

@@ -115,6 +115,9 @@ private:
         FrameNumber number = 0;
     };
 
+    bool is_full() const;
+    // Whether one message waits in front of the full queue, so that it has begun to block, or will end.
+    bool has_one_in_front() const;
     void wait_for_channel();
     void access_channel();
     void transmit(std::size_t exchange);

@@ -14,6 +14,7 @@ IdealTiming::IdealTiming(std::string_view timing, const InterfaceConfig& config)
       collides_(timing == aloha_timing),
       is_802154_(config.type_name == ieee802154_interface),
       queue_capacity_(is_802154_ ? config.csma.queue_capacity : config.mac.queue_capacity),
+      blocks_((is_802154_ ? config.csma.queue_when_full : config.mac.queue_when_full) == block_when_full),
       most_attempts_(config.mac.short_retry_limit) {
     if (is_802154_) {
         most_attempts_ = config.csma.use_acks ? config.csma.max_frame_retries + 1 : 1;

@@ -28,6 +28,8 @@ public:
     // Of a unicast frame.
     int most_attempts() const { return most_attempts_; }
     int queue_capacity() const { return queue_capacity_; }
+    // Whether messages wait in front of a full queue.
+    bool blocks() const { return blocks_; }
 
     const Mode& mode(FrameKind kind) const { return kind == FrameKind::broadcast ? *broadcast_ : *unicast_; }
     // Length of the PSDU in bytes, with MAC, IP and UDP headers.
@@ -46,6 +48,7 @@ private:
     bool collides_;
     bool is_802154_;
     int queue_capacity_;
+    bool blocks_;
     int most_attempts_;
     const Mode* broadcast_;
     const Mode* unicast_;

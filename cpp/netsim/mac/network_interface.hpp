@@ -18,6 +18,10 @@ class NetworkInterfaceListener {
 public:
     // A message for this node, in the frame that carried it.
     virtual void message_received(const Frame& frame) = 0;
+    // A message from this node has failed, as the outcome says: the queue was full, or no ACK came.
+    virtual void message_failed(const Frame&, MessageFate) {}
+    // A message waits in front of the full queue, or no message does any more.
+    virtual void queue_blocks(bool) {}
 
 protected:
     ~NetworkInterfaceListener() = default;
@@ -48,6 +52,16 @@ protected:
     void pass_on_message(const Frame& frame) const {
         if (listener_ != nullptr) {
             listener_->message_received(frame);
+        }
+    }
+    void report_failure(const Frame& frame, MessageFate fate) const {
+        if (listener_ != nullptr) {
+            listener_->message_failed(frame, fate);
+        }
+    }
+    void report_blocking(bool blocks) const {
+        if (listener_ != nullptr) {
+            listener_->queue_blocks(blocks);
         }
     }
 

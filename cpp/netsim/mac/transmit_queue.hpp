@@ -4,6 +4,8 @@
 //   add() -> WAITING --begin_next()--> IN PROGRESS --finish(fate)--> gone
 //     |
 //     +--the queue is full--> gone: queue_overflow
+//
+// A queue that blocks drops nothing: messages wait in front of it, and the interface reports that.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +24,9 @@ namespace netsim {
 class TransmitQueue {
 public:
     // `node`: of the interface. `capacity`: maximum number of waiting frames, without the one in
-    // progress.
-    TransmitQueue(NodeId node, int capacity) : capacity_(capacity), node_(node) {}
+    // progress. `blocks`: whether messages wait in front of a full queue.
+    TransmitQueue(NodeId node, int capacity, bool blocks)
+        : capacity_(capacity), blocks_(blocks), node_(node) {}
 
     // The frame of a new message from this node, with the next sequence number and without a
     // duration field.
@@ -40,11 +43,12 @@ public:
         frame.accepted = now;
         return frame;
     }
-    // Accepts the message of a data frame. Returns false if it is dropped because the queue is full.
-    bool add(Frame frame) {
+    // Accepts the message of a data frame and takes it. Returns false, and leaves it, if it is dropped
+    // because the queue is full.
+    bool add(Frame& frame) {
         const MessageKind kind = message_kind(frame);
         fates_.accept(kind);
-        if (waiting() >= static_cast<std::size_t>(capacity_)) {
+        if (!blocks_ && waiting() >= static_cast<std::size_t>(capacity_)) {
             fates_.book(kind, MessageFate::queue_overflow);
             return false;
         }
@@ -57,9 +61,16 @@ public:
     bool empty() const { return queue_.empty(); }
     const MessageFates& message_fates() const { return fates_; }
 
+    // Whether one message waits in front of the full queue, so that it has begun to block, or will end.
+    bool has_one_in_front() const { return blocks_ && waiting() == static_cast<std::size_t>(capacity_) + 1; }
+
     // Unless a frame is in progress already, makes the first waiting frame the one in progress. There
-    // must be one.
-    void begin_next() { is_in_progress_ = true; }
+    // must be one. Returns whether the last message in front of the queue has entered it.
+    bool begin_next() {
+        const bool ends_blocking = !is_in_progress_ && has_one_in_front();
+        is_in_progress_ = true;
+        return ends_blocking;
+    }
     bool is_in_progress() const { return is_in_progress_; }
     // Only while a frame is in progress, here and below.
     const std::shared_ptr<const Frame>& in_progress() const { return queue_.front(); }
@@ -91,6 +102,7 @@ private:
 
     FrameFifo queue_;
     int capacity_;
+    bool blocks_;
     bool is_in_progress_ = false;  // whether the first frame is
     NodeId node_;
     std::uint32_t next_sequence_ = 0;

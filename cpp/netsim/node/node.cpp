@@ -1,5 +1,6 @@
 #include "netsim/node/node.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "netsim/error.hpp"
@@ -12,6 +13,11 @@ namespace netsim {
 
 namespace {
 
+bool blocks(const InterfaceConfig& interface) {
+    const bool is_802154 = interface.type_name == ieee802154_interface;
+    return (is_802154 ? interface.csma.queue_when_full : interface.mac.queue_when_full) == block_when_full;
+}
+
 constexpr std::uint64_t timer_word = 0x74696D6572;  // "timer"; marks timers in the fingerprint
 
 }  // namespace
@@ -21,6 +27,7 @@ Node::Node(NetworkContext& context, const NodeConfig& config, NodeId id, std::ui
       mobility_(make_mobility(config.mobility, config.initial_position, config.wind, seed,
                               static_cast<std::uint32_t>(id))),
       id_(id),
+      has_blocking_queue_(std::ranges::any_of(config.wlan, blocks)),
       name_(config.name),
       attitude_(config.mobility),
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol),
@@ -40,7 +47,7 @@ void Node::set_protocol(std::unique_ptr<Protocol> protocol) {
     if (protocol_) {
         protocol_->context_ = &context_;
         protocol_->node_ = id_;
-        if (processing_time_.is_any()) {
+        if (processing_time_.is_any() || has_blocking_queue_ || protocol_->wants_failed_messages()) {
             auto computer = std::make_unique<Computer>(std::move(protocol_), processing_time_);
             computer_ = computer.get();
             protocol_ = std::move(computer);

@@ -114,8 +114,9 @@ private:
     [[no_unique_address]] Timers timers_;  // its padding holds the id
     NodeId id_;
 
-    bool observed_ = false;         // most nodes are not
-    Computer* computer_ = nullptr;  // protocol_, if it takes time for its events
+    bool observed_ = false;  // most nodes are not
+    bool has_blocking_queue_;
+    Computer* computer_ = nullptr;  // protocol_, if its events may have to wait
     InstantCount timers_for_now_;
     std::vector<std::unique_ptr<NetworkInterface>> interfaces_;
     std::string name_;

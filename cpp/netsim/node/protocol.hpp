@@ -34,6 +34,12 @@ public:
     // Once, at the end of the run, in the order of node ids.
     virtual void finish() = 0;
 
+    // Whether it wants the calls below; asked once, before the run.
+    virtual bool wants_failed_messages() const { return false; }
+    // A message of this node was dropped, or its retries ended without an ACK. `destination`:
+    // broadcast_id for all.
+    virtual void handle_failed_message(const Payload&, NodeId, MessageFate) {}
+
     // A timer will be due soon: may prefetch what the handler reads (kernel/prefetch.hpp). The first
     // two cache lines of the protocol itself are prefetched already.
     virtual void prefetch() const {}

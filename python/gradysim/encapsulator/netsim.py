@@ -14,7 +14,7 @@ from gradysim.encapsulator.random_stream import Purpose, RandomStream
 from gradysim.encapsulator.tracked_variables import CheckedProvider
 from gradysim.encapsulator.validation import addressed_by_id, geo_target, id_of_name
 from gradysim.protocol.errors import add_protocol_note
-from gradysim.protocol.interface import IProtocol, IProvider
+from gradysim.protocol.interface import IProtocol, IProvider, handles_failed_messages
 from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
@@ -151,7 +151,7 @@ class NetsimEncapsulator(IEncapsulator[T], Generic[T]):
         except BaseException as failure:
             self._note(failure, "__init__")
             raise
-        self._node.set_protocol(self.protocol, self._note)
+        self._node.set_protocol(self.protocol, self._note, handles_failed_messages(self.protocol))
 
     # The engine calls the protocol itself. These methods are for handlers that call the protocol of a node
     # through its encapsulator, as in prototype mode.

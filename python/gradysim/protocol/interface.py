@@ -33,7 +33,7 @@ class IProvider(ABC):
 
     @abstractmethod
     def send_communication_command(self, command: CommunicationCommand) -> None:
-        """Hand a message to the node's radio. There is no delivery report.
+        """Hand a message to the node's radio. `IProtocol.handle_failed_message` may report that it failed.
 
         Raises:
             CommunicationException: The message is not a str or is too long for the network, or the
@@ -98,7 +98,7 @@ class IProvider(ABC):
 
 
 class IProtocol(ABC):
-    """The behavior of one node. `handle_telemetry` and `finish` are optional.
+    """The behavior of one node. `handle_telemetry`, `finish` and `handle_failed_message` are optional.
 
     The constructor takes no arguments and runs before `provider` is set; use the provider from `initialize`
     on. The order in which the nodes' `initialize` and `finish` are called is not specified.
@@ -133,6 +133,29 @@ class IProtocol(ABC):
 
     def finish(self) -> None:  # noqa: B027 (optional)
         """Called once, after the last event of the run. By default, it does nothing."""
+
+    def handle_failed_message(  # noqa: B027 (optional)
+        self, message: str, destination: int | None, reason: str
+    ) -> None:
+        """Called when a message of this node has failed, in integrated mode, if the class defines it.
+
+        The medium of prototype mode gives a sender no feedback, so there it is never called. A message that
+        is on the air counts as sent: only a missing acknowledgement tells that a unicast did not arrive, and
+        nothing tells it of a broadcast.
+
+        Args:
+            message: The message.
+            destination: The id to which it was sent; None for a broadcast.
+            reason: Its outcome in the results: "queue_overflow" (the queue was full), "retry_limit" (no
+                acknowledgement after the last retry), "channel_access_failure" (802.15.4: the channel was
+                busy too often) or "out_of_range" (on a medium without radios).
+        """
+
+
+def handles_failed_messages(protocol: object) -> bool:
+    """Return whether the class of a protocol defines `handle_failed_message` itself."""
+    method = getattr(type(protocol), "handle_failed_message", None)
+    return method is not None and method is not IProtocol.handle_failed_message
 
 
 _REQUIRED = ("initialize", "handle_timer", "handle_packet")

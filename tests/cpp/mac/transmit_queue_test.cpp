@@ -16,13 +16,17 @@ constexpr int capacity = 2;
 
 class TransmitQueueTest : public testing::Test {
 protected:
-    bool add(NodeId destination) { return queue.add(queue.frame_of(destination, text, 164, SimTime{})); }
+    bool add(NodeId destination) { return add_to(queue, destination); }
+    bool add_to(TransmitQueue& to, NodeId destination) const {
+        Frame frame = to.frame_of(destination, text, 164, SimTime{});
+        return to.add(frame);
+    }
     std::uint64_t booked(MessageKind kind, MessageFate fate) const {
         return queue.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
     }
 
     Payload text = std::make_shared<const std::string>("text");
-    TransmitQueue queue{7, capacity};
+    TransmitQueue queue{7, capacity, false};
 };
 
 TEST_F(TransmitQueueTest, FramesHaveSequenceNumbersAndReceivers) {
@@ -101,10 +105,25 @@ TEST_F(TransmitQueueTest, HasRoomAgainWhenAWaitingFrameIsInProgress) {
     EXPECT_TRUE(add(8));
 }
 
+TEST_F(TransmitQueueTest, OneThatBlocksDropsNothing) {
+    TransmitQueue blocking(7, capacity, true);
+    add_to(blocking, 3);
+    add_to(blocking, 4);
+    EXPECT_FALSE(blocking.has_one_in_front());
+    EXPECT_TRUE(add_to(blocking, 5));
+    EXPECT_TRUE(blocking.has_one_in_front());
+    EXPECT_TRUE(add_to(blocking, 6));
+    EXPECT_FALSE(blocking.has_one_in_front());  // but two
+    EXPECT_FALSE(blocking.begin_next());
+    blocking.finish(MessageFate::sent);
+    EXPECT_TRUE(blocking.begin_next());   // now all others fit in
+    EXPECT_FALSE(blocking.begin_next());  // a retry
+}
+
 // Compared with a plain queue, for all lengths and back.
 TEST(TransmitQueue, MatchesAPlainQueueOfThatCapacity) {
     constexpr std::size_t most = 20;
-    TransmitQueue queue(7, most);
+    TransmitQueue queue(7, most, false);
     std::deque<NodeId> waiting;
     std::optional<NodeId> in_progress;
     const Payload text = std::make_shared<const std::string>("text");
@@ -112,7 +131,8 @@ TEST(TransmitQueue, MatchesAPlainQueueOfThatCapacity) {
     for (NodeId receiver = 0; receiver < 5'000; ++receiver) {
         const bool grows = receiver / 100 % 2 == 0;
         if (draws.uniform() < (grows ? 0.6 : 0.4)) {
-            ASSERT_EQ(queue.add(queue.frame_of(receiver, text, 164, SimTime{})), waiting.size() < most);
+            Frame frame = queue.frame_of(receiver, text, 164, SimTime{});
+            ASSERT_EQ(queue.add(frame), waiting.size() < most);
             if (waiting.size() < most) {
                 waiting.push_back(receiver);
             }

@@ -18,7 +18,7 @@ class CommunicationCommandType(int, Enum):
 
 @dataclass
 class CommunicationCommand:
-    """Sends `message`. Messages may be lost, and there are no delivery reports.
+    """Sends `message`. Messages may be lost: see `IProtocol.handle_failed_message`.
 
     Attributes:
         command_type: Addressing of the message.
