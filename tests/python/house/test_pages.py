@@ -11,14 +11,14 @@ pytest.importorskip("gradysim._netsim")
 SLOW = pytest.mark.verify
 
 PAGES = [
-    ("how-to/come-from-ns3-or-inet.md", 0, "empty", {"part": True}),
-    ("how-to/find-lost-frames.md", 0, "empty", {"part": True}),
-    ("how-to/let-clocks-drift.md", 0, "empty", {"part": True}),
-    ("how-to/troubleshoot.md", 0, "empty", {"part": True}),
-    ("how-to/behave-as-ns3-or-inet.md", 0, "project", {"part": True}),
-    ("how-to/trace-a-node.md", 1, "project", {}),
-    pytest.param("explanation/determinism.md", 0, "project", {}, marks=SLOW),
-    pytest.param("explanation/determinism.md", 1, "project", {}, marks=SLOW),
+    ("docs/how-to/come-from-ns3-or-inet.md", 0, "empty", {"part": True}),
+    ("docs/how-to/find-lost-frames.md", 0, "empty", {"part": True}),
+    ("docs/how-to/let-clocks-drift.md", 0, "empty", {"part": True}),
+    ("docs/how-to/troubleshoot.md", 0, "empty", {"part": True}),
+    ("docs/how-to/behave-as-ns3-or-inet.md", 0, "project", {"part": True}),
+    ("docs/how-to/trace-a-node.md", 1, "project", {}),
+    pytest.param("docs/explanation/determinism.md", 0, "project", {}, marks=SLOW),
+    pytest.param("docs/explanation/determinism.md", 1, "project", {}, marks=SLOW),
 ]
 """A page, the index of its blocks of commands and output, where they run, and how they are compared."""
 
@@ -36,4 +36,4 @@ def test_what_is_printed(
     how: dict[str, Any],
 ) -> None:
     folder = root if where == "project" else tmp_path
-    shows(f"docs/{page}", shell(code_blocks(f"docs/{page}", "sh")[number], folder), number, **how)
+    shows(page, shell(code_blocks(page, "sh")[number], folder), number, **how)
