@@ -62,8 +62,8 @@ py::object default_of(const Field& field, void* config) {
 }
 
 py::dict type_row(const Field& field) {
-    constexpr std::array kinds{"quantity", "level",   "ratio", "number", "integer",
-                               "bytes",    "boolean", "name",  "file"};
+    constexpr std::array kinds{"quantity", "level", "ratio", "number",   "integer",          "bytes",
+                               "boolean",  "name",  "file",  "bitrates", "powers_by_bitrate"};
     const ValueType& type = field.type;
     py::dict row;
     row["kind"] = kinds[static_cast<std::size_t>(type.kind)];

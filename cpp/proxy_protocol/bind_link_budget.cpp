@@ -18,6 +18,7 @@ void bind_link_budget(py::module_& module) {
              py::arg("distance_m"), py::arg("tx_power_w"))
         .def("tx_power_w_for", &LinkBudget::tx_power_w_for, py::arg("range_m"), py::arg("ratio"))
         .def("mean_gain", &LinkBudget::mean_gain, py::arg("distance_m"))
+        .def_property_readonly("tx_power_w", &LinkBudget::tx_power_w)
         .def_property_readonly("bitrate_bps", &LinkBudget::bitrate_bps)
         .def_property_readonly("psdu_bytes", &LinkBudget::psdu_bytes)
         .def_property_readonly("noise_w", &LinkBudget::noise_w);

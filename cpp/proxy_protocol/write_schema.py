@@ -32,6 +32,7 @@ def stub_text(rows: Sequence[Mapping[str, Any]]) -> str:
     lines = [
         '"""The declared fields of the config structs. Written by `make schema`; do not edit."""',
         "",
+        "from collections.abc import Sequence",
         "from typing import TypeAlias",
         "",
         "MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]",
@@ -53,6 +54,7 @@ def stub_text(rows: Sequence[Mapping[str, Any]]) -> str:
 
 def _python_type(kind: str) -> str:
     names = {"integer": "int", "bytes": "int", "boolean": "bool", "name": "str", "file": "str"}
+    names |= {"bitrates": "Sequence[float]", "powers_by_bitrate": "Sequence[tuple[float, float]]"}
     return names.get(kind, "float")
 
 

@@ -112,6 +112,9 @@ class LinkBudget:
     def mean_gain(self, distance_m: float) -> float:
         """Mean received power of 1 W."""
     @property
+    def tx_power_w(self) -> float:
+        """Of the sender's frames."""
+    @property
     def bitrate_bps(self) -> float: ...
     @property
     def psdu_bytes(self) -> int: ...

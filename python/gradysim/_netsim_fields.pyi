@@ -1,5 +1,6 @@
 """The declared fields of the config structs. Written by `make schema`; do not edit."""
 
+from collections.abc import Sequence
 from typing import TypeAlias
 
 MessagePart: TypeAlias = str | tuple[float, str] | tuple[str]
@@ -92,6 +93,10 @@ class MacFields:
     """Bit rate of broadcast frames; -1bps: that of data frames."""
     control_bitrate_bps: float
     """Bit rate of RTS frames; -1bps: the fastest mandatory one."""
+    basic_bitrates_bps: Sequence[float]
+    """Bit rates of ACK and CTS frames: the fastest of them with the modulation of the answered frame
+    that is not faster than it; if there is none, and with [], the same among the mandatory bit
+    rates."""
     rts_threshold_bytes: int
     """Unicast frames of at least this length begin with RTS and CTS."""
     short_retry_limit: int
@@ -194,6 +199,9 @@ class RadioFields:
     """Width of the channel; 802.11: 20MHz to 22MHz."""
     tx_power_w: float
     """Transmit power."""
+    tx_power_by_bitrate_w: Sequence[tuple[float, float]]
+    """Transmit power of frames with these bit rates, such as [[48Mbps, 20dBm], [54Mbps, 19dBm]]; all
+    others have transmitter.power."""
     communication_range_m: float
     """UnitDiskRadioMedium: radius of the circle. Other media: sets the lowest power at which at least
     half of the broadcast messages of 50 B arrive at that distance; of it and transmitter.power, the
@@ -273,6 +281,14 @@ class MediumFields:
     """Noise in the channel."""
     temperature_k: float
     """Temperature around the receiver."""
+    other_systems_w: float
+    """Median power of other systems at each receiver, which adds to the background noise of receptions,
+    not to that of energy detection; 0W: none; prototype mode has no noise."""
+    other_systems_standard_deviation_db: float
+    """Standard deviation of that power in dB, which is normally distributed and independent at each
+    receiver."""
+    other_systems_coherence_time_s: float
+    """Time after which that power is drawn again, also within a frame."""
     path_loss: str
     """How power falls with distance, and how it fades; docs/how-to/choose-a-propagation-model.md."""
     alpha: float

@@ -115,6 +115,15 @@ void check_fields(const Schema& schema, const void* config) {
         } else if (const auto* name = std::get_if<std::string*>(&value);
                    name != nullptr && field.type.kind == ValueType::Kind::name) {
             check_value(schema.full_name(field), **name, field.type);
+        } else if (const auto* rates = std::get_if<Bitrates*>(&value)) {
+            for (const double bitrate_bps : **rates) {
+                check_value(schema.full_name(field), bitrate_bps, field.type);
+            }
+        } else if (const auto* powers = std::get_if<PowersByBitrate*>(&value)) {
+            for (const auto& [bitrate_bps, power_w] : **powers) {
+                check_value(schema.full_name(field), bitrate_bps, bitrates());
+                check_value(schema.full_name(field), power_w, field.type);
+            }
         }
     }
 }

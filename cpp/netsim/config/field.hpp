@@ -10,7 +10,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "netsim/error.hpp"
 
@@ -19,7 +21,19 @@ namespace netsim {
 // Type of a value, its range, and its format in .ini files. Made by the functions below:
 // `quantity("s").shown_in("us").at_least(0).at_most(1)`.
 struct ValueType {
-    enum class Kind { quantity, level, ratio, number, integer, bytes, boolean, name, file };
+    enum class Kind {
+        quantity,
+        level,
+        ratio,
+        number,
+        integer,
+        bytes,
+        boolean,
+        name,
+        file,
+        bitrates,
+        powers_by_bitrate
+    };
 
     Kind kind = Kind::number;
     std::string_view unit = {};   // of the field, an SI unit
@@ -102,6 +116,19 @@ constexpr ValueType bitrate() {
     return quantity("bps").shown_in("Mbps").above(0).or_special(-1);
 }
 
+// Bitrates in bps: [1Mbps, 2Mbps].
+constexpr ValueType bitrates() {
+    return {.kind = ValueType::Kind::bitrates,
+            .unit = "bps",
+            .shown = "Mbps",
+            .least = 0,
+            .excludes_least = true};
+}
+// A power in W for each of several bitrates in bps: [[6Mbps, 22dBm], [54Mbps, 19dBm]].
+constexpr ValueType powers_by_bitrate() {
+    return {.kind = ValueType::Kind::powers_by_bitrate, .unit = "W", .shown = "mW", .least = 0};
+}
+
 // The models that read a field, if another field chooses among several models.
 struct ReadBy {
     std::string_view chosen_by;               // "radio.error_model"; "": every model reads it
@@ -109,7 +136,9 @@ struct ReadBy {
     std::string_view shown;                   // the name of these models in lists of keys; "" to leave it out
 };
 
-using Member = std::variant<double*, int*, bool*, std::string*>;
+using Bitrates = std::vector<double>;                            // in bps
+using PowersByBitrate = std::vector<std::pair<double, double>>;  // {bitrate in bps, power in W}
+using Member = std::variant<double*, int*, bool*, std::string*, Bitrates*, PowersByBitrate*>;
 
 struct Field {
     std::string_view name;       // the name in C++ and Python

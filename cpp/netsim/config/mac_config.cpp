@@ -33,6 +33,9 @@ constexpr Field fields[] = {
      "Bit rate of broadcast frames; -1bps: that of data frames"},
     {NETSIM_FIELD(MacConfig, control_bitrate_bps), "mac.dcf.rateSelection.controlFrameBitrate", bitrate(),
      "Bit rate of RTS frames; -1bps: the fastest mandatory one"},
+    {NETSIM_FIELD(MacConfig, basic_bitrates_bps), "mac.basicBitrates", bitrates(),
+     "Bit rates of ACK and CTS frames: the fastest of them with the modulation of the answered frame that is "
+     "not faster than it; if there is none, and with [], the same among the mandatory bit rates"},
     {NETSIM_FIELD(MacConfig, rts_threshold_bytes), "mac.dcf.rtsPolicy.rtsThreshold",
      bytes().at_least(0).at_most(1'000'000), "Unicast frames of at least this length begin with RTS and CTS"},
     {NETSIM_FIELD(MacConfig, short_retry_limit), "mac.dcf.recoveryProcedure.shortRetryLimit", retry_limit,

@@ -25,6 +25,8 @@ struct MacConfig {
     double multicast_bitrate_bps = -1;  // -1: that of data frames
     double control_bitrate_bps = -1;    // of RTS frames; -1: the fastest mandatory one
 
+    Bitrates basic_bitrates_bps;  // mac/response_modes.hpp; empty: the mandatory ones
+
     int rts_threshold_bytes = 2346;  // length of the MPDU
     int short_retry_limit = 7;
     int long_retry_limit = 4;

@@ -50,6 +50,17 @@ constexpr Field fields[] = {
      with_isotropic_noise},
     {NETSIM_FIELD(MediumConfig, temperature_k), "backgroundNoise.temperature", quantity("K").at_least(0),
      "temperature around the receiver", with_thermal_noise},
+    {NETSIM_FIELD(MediumConfig, other_systems_w), "otherSystems.power",
+     quantity("W").shown_in("mW").at_least(0).at_most(1),
+     "median power of other systems at each receiver, which adds to the background noise of receptions, "
+     "not to that of energy detection; 0W: none; prototype mode has no noise"},
+    {NETSIM_FIELD(MediumConfig, other_systems_standard_deviation_db), "otherSystems.standardDeviation",
+     number_in("dB").at_least(0).at_most(40),
+     "standard deviation of that power in dB, which is normally distributed and independent at each "
+     "receiver"},
+    {NETSIM_FIELD(MediumConfig, other_systems_coherence_time_s), "otherSystems.coherenceTime",
+     quantity("s").shown_in("ms").at_least(1e-6).at_most(1e6),
+     "time after which that power is drawn again, also within a frame"},
     {NETSIM_FIELD(MediumConfig, path_loss), "pathLoss.typename", one_of(path_loss_names),
      "How power falls with distance, and how it fades; docs/how-to/choose-a-propagation-model.md"},
     {NETSIM_FIELD(MediumConfig, alpha), "pathLoss.alpha", number().above(0), "exponent of the distance",

@@ -78,6 +78,11 @@ struct MediumConfig {
     double temperature_k = 290;
     double background_noise_w = 1e-14;  // -110 dBm in every band, for any width
 
+    // Power of other systems, beside any background noise (medium/other_systems.hpp). 0: none
+    double other_systems_w = 0;
+    double other_systems_standard_deviation_db = 0;
+    double other_systems_coherence_time_s = 0.1;
+
     std::string propagation = "ConstantSpeedPropagation";  // at the speed of light
 
     std::string obstacle_loss;  // "": obstacles have no effect

@@ -1,5 +1,7 @@
 #include "netsim/config/radio_config.hpp"
 
+#include <algorithm>
+
 #include "netsim/config/check.hpp"
 #include "netsim/config/medium_config.hpp"
 
@@ -24,6 +26,10 @@ constexpr Field fields[] = {
      "Width of the channel; 802.11: 20MHz to 22MHz"},
     {NETSIM_FIELD(RadioConfig, tx_power_w), "transmitter.power",
      quantity("W").shown_in("mW").at_least(0).at_most(largest_tx_power_w), "Transmit power"},
+    {NETSIM_FIELD(RadioConfig, tx_power_by_bitrate_w), "transmitter.powerByBitrate",
+     powers_by_bitrate().at_most(largest_tx_power_w),
+     "Transmit power of frames with these bit rates, such as [[48Mbps, 20dBm], [54Mbps, 19dBm]]; all others "
+     "have transmitter.power"},
     {NETSIM_FIELD(RadioConfig, communication_range_m), "transmitter.communicationRange",
      quantity("m").at_least(0),
      "UnitDiskRadioMedium: radius of the circle. Other media: sets the lowest power at which at least half "
@@ -95,8 +101,21 @@ RadioConfig::RadioConfig(std::string_view interface_type_name) {
 
 void RadioConfig::validate() const {
     check_fields(*this);
+    for (auto entry = tx_power_by_bitrate_w.begin(); entry != tx_power_by_bitrate_w.end(); ++entry) {
+        if (std::ranges::find(tx_power_by_bitrate_w.begin(), entry, entry->first,
+                              &PowersByBitrate::value_type::first) != entry) {
+            throw ConfigError({"radio.tx_power_by_bitrate_w",
+                               Quantity{entry->first, "bps"},
+                               {"expected one power for this bit rate"}});
+        }
+    }
     check_at_most("radio.bandwidth_hz", bandwidth_hz, "radio.carrier_hz", carrier_hz, "Hz");
     antenna.validate(carrier_hz);
+}
+
+double tx_power_w(double bitrate_bps, double usual_w, const PowersByBitrate& by_bitrate_w) {
+    const auto found = std::ranges::find(by_bitrate_w, bitrate_bps, &PowersByBitrate::value_type::first);
+    return found == by_bitrate_w.end() ? usual_w : found->second;
 }
 
 }  // namespace netsim

@@ -35,6 +35,7 @@ struct RadioConfig {
     double carrier_hz = 2.412e9;  // channel 1 of the 2.4 GHz band
     double bandwidth_hz = 22e6;
     double tx_power_w = 0.02;
+    PowersByBitrate tx_power_by_bitrate_w;  // of bitrates with another power
     double communication_range_m = 60;
     double sensitivity_w = 3.1622776601683794e-12;       // -85 dBm
     double energy_detection_w = 3.1622776601683794e-12;  // -85 dBm
@@ -60,10 +61,14 @@ struct RadioConfig {
 
     static const Schema schema;
 
-    // Throws ConfigError for the first field out of its range, and for a bandwidth above the center frequency.
+    // Throws ConfigError for the first field out of its range, a bandwidth above the center frequency, and a bitrate
+    // with two powers.
     void validate() const;
 
     bool operator==(const RadioConfig&) const = default;
 };
+
+// The power in W of frames with that bitrate in bps: `usual_w`, unless the list has another.
+double tx_power_w(double bitrate_bps, double usual_w, const PowersByBitrate& by_bitrate_w);
 
 }  // namespace netsim

@@ -27,6 +27,7 @@ enum class Purpose : std::uint32_t {
     gusts = 9,
     position_error = 10,
     processing = 11,
+    other_systems = 12,
 };
 
 // Philox4x32 with 10 rounds: maps a 128-bit counter and a 64-bit key to 128 random bits.

@@ -9,22 +9,24 @@
 #pragma once
 
 #include "netsim/mac/frame.hpp"
+#include "netsim/mac/response_modes.hpp"
 #include "netsim/mac/timing.hpp"
 
 namespace netsim {
 
-inline SimTime data_duration_field(const MacTiming& timing, const ModeSet& modes, const Mode& mode) {
-    return timing.sifs + modes.response_mode(mode).duration(ack_bytes);
+inline SimTime data_duration_field(const MacTiming& timing, const ResponseModes& responses,
+                                   const Mode& mode) {
+    return timing.sifs + responses.to(mode).duration(ack_bytes);
 }
 
-inline Frame make_rts(const Frame& data, const MacTiming& timing, const ModeSet& modes, const Mode& rts_mode,
-                      const Mode& data_mode) {
+inline Frame make_rts(const Frame& data, const MacTiming& timing, const ResponseModes& responses,
+                      const Mode& rts_mode, const Mode& data_mode) {
     Frame rts;
     rts.kind = FrameKind::rts;
     rts.transmitter = data.transmitter;
     rts.receiver = data.receiver;
     rts.psdu_bytes = rts_bytes;
-    rts.duration_field = timing.sifs + modes.response_mode(rts_mode).duration(cts_bytes) + timing.sifs +
+    rts.duration_field = timing.sifs + responses.to(rts_mode).duration(cts_bytes) + timing.sifs +
                          data_mode.duration(data.psdu_bytes) + data.duration_field;
     return rts;
 }

@@ -36,7 +36,7 @@ void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
     Frame frame = queue_.frame_of(destination, std::move(payload), psdu_bytes, simulator().now());
     frame.cause = cause;
     if (destination != broadcast_id) {
-        frame.duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
+        frame.duration_field = data_duration_field(parameters_.timing, parameters_.responses, *data_mode_);
     }
     if (!queue_.add(frame)) {
         report_failure(frame, MessageFate::queue_overflow);
@@ -86,14 +86,15 @@ RateAttempt Dcf::attempt() const {
 
 void Dcf::choose_data_mode() {
     data_mode_ = &rate_control_->mode_for(attempt(), simulator().now());
-    const SimTime duration_field = data_duration_field(parameters_.timing, parameters_.modes, *data_mode_);
+    const SimTime duration_field =
+        data_duration_field(parameters_.timing, parameters_.responses, *data_mode_);
     queue_.set_duration_field(duration_field);
 }
 
 void Dcf::send_rts() {
     exchange_ = Exchange::sending_rts;
-    rts_ = std::make_shared<const Frame>(
-        make_rts(in_progress(), parameters_.timing, parameters_.modes, parameters_.rts_mode, *data_mode_));
+    rts_ = std::make_shared<const Frame>(make_rts(in_progress(), parameters_.timing, parameters_.responses,
+                                                  parameters_.rts_mode, *data_mode_));
     transmit(rts_, parameters_.rts_mode);
 }
 
@@ -121,7 +122,7 @@ void Dcf::transmission_ended() {
         own_frame_ended(*response_frame_);
     } else if (exchange_ == Exchange::sending_rts) {
         own_frame_ended(*rts_);
-        await_answer(Exchange::awaiting_cts, parameters_.modes.response_mode(parameters_.rts_mode));
+        await_answer(Exchange::awaiting_cts, parameters_.responses.to(parameters_.rts_mode));
     } else {
         NETSIM_ASSERT(exchange_ == Exchange::sending);
         if (in_progress().receiver == broadcast_id) {
@@ -130,7 +131,7 @@ void Dcf::transmission_ended() {
             return;
         }
         own_frame_ended(in_progress());
-        await_answer(Exchange::awaiting_ack, parameters_.modes.response_mode(*data_mode_));
+        await_answer(Exchange::awaiting_ack, parameters_.responses.to(*data_mode_));
     }
 }
 
@@ -192,10 +193,10 @@ void Dcf::answered() {
 
 void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
     if (frame.kind == FrameKind::rts && !is_nav_set()) {
-        const Mode& cts_mode = parameters_.modes.response_mode(mode);
+        const Mode& cts_mode = parameters_.responses.to(mode);
         respond_after_sifs(make_cts(frame, parameters_.timing, cts_mode), cts_mode);
     } else if (frame.kind == FrameKind::unicast) {
-        respond_after_sifs(make_ack(frame), parameters_.modes.response_mode(mode));
+        respond_after_sifs(make_ack(frame), parameters_.responses.to(mode));
         if (!duplicates_.is_duplicate(frame)) {
             pass_on_message(frame);
         }
@@ -294,7 +295,7 @@ void Dcf::reset_nav_after_rts(const Mode& rts_mode) {
     if (!parameters_.config.unanswered_rts_resets_nav) {
         return;
     }
-    const Mode& cts_mode = parameters_.modes.response_mode(rts_mode);
+    const Mode& cts_mode = parameters_.responses.to(rts_mode);
     const SimTime timeout = (parameters_.timing.sifs + parameters_.timing.slot) * 2 +
                             cts_mode.duration(cts_bytes) + cts_mode.preamble + cts_mode.header;
     awaits_frame_after_rts_ = true;

@@ -59,6 +59,7 @@ DcfParameters::DcfParameters(Simulator& simulator_, MacConfig mac_config)
       config(std::move(mac_config)),
       modes(mode_set(config.op_mode)),
       timing(modes),
+      responses(config),
       initial_mode(checked_initial_mode(config, modes)),
       broadcast_mode(netsim::broadcast_mode(config)),
       rts_mode(modes.mode_for_bitrate(config.control_bitrate_bps, "mac.control_bitrate_bps")),

@@ -5,6 +5,7 @@
 #include "netsim/config/mac_config.hpp"
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/kernel/simulator.hpp"
+#include "netsim/mac/response_modes.hpp"
 #include "netsim/mac/retry.hpp"
 #include "netsim/mac/timing.hpp"
 #include "netsim/phy/modes.hpp"
@@ -24,6 +25,7 @@ struct DcfParameters {
     MacConfig config;
     const ModeSet& modes;
     MacTiming timing;
+    ResponseModes responses;
     const Mode& initial_mode;  // of unicast frames
     const Mode& broadcast_mode;
     const Mode& rts_mode;

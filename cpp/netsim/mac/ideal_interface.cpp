@@ -142,7 +142,7 @@ Transmission IdealInterface::transmission_of(const std::shared_ptr<const Frame>&
     if (radio_) {
         sent.sender = InterfaceId::of_stream(stream_);
         sent.origin = trajectory_.position_at(sent.start);
-        sent.power_w = radio_->tx_power_w;
+        sent.power_w = radio_->model->tx_power_w(timing_.mode(frame->kind), radio_->tx_power_w);
         sent.band = radio_->model->band;
         sent.radio = radio_id_;
     }
@@ -330,14 +330,16 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
     } else {
         const ReceptionModel& reception = radio_->model->reception;
         const PreambleDetection& preamble = radio_->model->preamble_detection;
+        const double systems_w = other_systems_w(flight.arrival);
+        const double disturbance_w = interference_w + systems_w;
         if (preamble.is_on() &&
-            !preamble.detects(flight.arrival.power_w, reception.snir(flight.arrival, interference_w))) {
+            !preamble.detects(flight.arrival.power_w, reception.snir(flight.arrival, disturbance_w))) {
             return FrameFate::preamble_undetected;
         }
         Arrival arrival = flight.arrival;
         arrival.transmission = flight.sent.get();
-        if (const double draw = this->draw(); !reception.survives(draw, arrival, interference_w)) {
-            const bool is_collision = interference_w > 0 && reception.survives(draw, arrival, 0);
+        if (const double draw = this->draw(); !reception.survives(draw, arrival, disturbance_w)) {
+            const bool is_collision = interference_w > 0 && reception.survives(draw, arrival, systems_w);
             fate = is_collision ? FrameFate::interference : FrameFate::noise;
         }
     }
@@ -362,7 +364,7 @@ void IdealInterface::book_loss(const Flight& flight, FrameFate fate, double inte
         if (radio_) {
             loss.budget = links_of(channel_).power_budget(sent, radio_id_, flight.arrival.place);
             loss.needed = radio_->model->needed_snir(*sent.mode, sent.psdu_bytes);
-            loss.noise_w = radio_->model->reception.noise_w;
+            loss.noise_w = radio_->model->reception.noise_w + other_systems_w(flight.arrival);
         }
         observer->frame_lost(sent.id(), loss);
     }

@@ -130,6 +130,11 @@ private:
     void deliver(std::size_t flight);
     void add_stretch(std::vector<Stretch>& stretches, const Stretch& added) const;
     FrameFate fate_of(const Flight& flight);
+    // The most that other systems add to the noise during a frame, in W. Unlike the MAC's radio, this interface
+    // takes the most of noise and interference together, even if they have it at different times.
+    double other_systems_w(const Arrival& arrival) const {
+        return radio_->model->medium.other_systems().max_w(stream_, arrival.start, arrival.end);
+    }
     void book_loss(const Flight& flight, FrameFate fate, double interference_w,
                    std::span<const FrameObserver::Interferer> interferers);
     double draw() { return RandomStream(seed_, stream_, Purpose::reception, drawn_++).uniform(); }

@@ -3,6 +3,7 @@
 #include "netsim/config/medium_config.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/frame_802154.hpp"
+#include "netsim/mac/response_modes.hpp"
 #include "netsim/mac/timing.hpp"
 #include "netsim/phy/oqpsk_mode.hpp"
 
@@ -30,7 +31,7 @@ IdealTiming::IdealTiming(std::string_view timing, const InterfaceConfig& config)
     const MacTiming intervals(modes);
     broadcast_ = &broadcast_mode(config.mac);
     unicast_ = &modes.mode_for_bitrate(config.mac.bitrate_bps);
-    response_ = intervals.sifs + modes.response_mode(*unicast_).duration(ack_bytes);
+    response_ = intervals.sifs + ResponseModes(config.mac).to(*unicast_).duration(ack_bytes);
     gap_ = intervals.difs;
 }
 

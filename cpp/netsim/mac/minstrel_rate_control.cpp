@@ -20,20 +20,22 @@ constexpr double longest_stage_s = 6e-3;
 
 // Seconds per attempt on a free channel: DIFS, mean backoff with contention window `cw`, frame, SIFS,
 // ACK.
-double attempt_s(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes, int cw) {
-    const SimTime fixed = timing.difs + timing.sifs + modes.response_mode(mode).duration(ack_bytes);
+double attempt_s(const ResponseModes& responses, const MacTiming& timing, const Mode& mode, int psdu_bytes,
+                 int cw) {
+    const SimTime fixed = timing.difs + timing.sifs + responses.to(mode).duration(ack_bytes);
     return (fixed + mode.duration(psdu_bytes)).seconds() + cw * timing.slot.seconds() / 2;
 }
 
 // The contention window doubles with each attempt.
-int attempts_in_a_stage(const ModeSet& modes, const MacTiming& timing, const Mode& mode, int psdu_bytes) {
+int attempts_in_a_stage(const ModeSet& modes, const ResponseModes& responses, const MacTiming& timing,
+                        const Mode& mode, int psdu_bytes) {
     int attempts = 0;
     int cw = modes.cw_min();
-    double taken_s = attempt_s(modes, timing, mode, psdu_bytes, cw);
+    double taken_s = attempt_s(responses, timing, mode, psdu_bytes, cw);
     while (taken_s <= longest_stage_s) {
         ++attempts;
         cw = std::min(2 * cw + 1, modes.cw_max());
-        taken_s += attempt_s(modes, timing, mode, psdu_bytes, cw);
+        taken_s += attempt_s(responses, timing, mode, psdu_bytes, cw);
     }
     return std::max(attempts, fewest_in_a_row);
 }
@@ -94,7 +96,7 @@ int MinstrelRateControl::attempts_in_a_row(const Link& link, std::size_t mode, i
     const double mean = link.modes[mode].mean;
     return mean > likely_enough || mean < unlikely_enough
                ? fewest_in_a_row
-               : attempts_in_a_stage(modes_, timing_, modes_.modes()[mode], psdu_bytes);
+               : attempts_in_a_stage(modes_, responses_, timing_, modes_.modes()[mode], psdu_bytes);
 }
 
 void MinstrelRateControl::succeeded(const RateAttempt& attempt, const Mode& mode, SimTime now) {
@@ -122,7 +124,8 @@ void MinstrelRateControl::update(Link& link, int psdu_bytes, SimTime now) const 
     }
     const std::span<const Mode> modes = modes_.modes();
     const auto throughput = [&](std::size_t mode) {
-        return link.modes[mode].mean / attempt_s(modes_, timing_, modes[mode], psdu_bytes, modes_.cw_min());
+        return link.modes[mode].mean /
+               attempt_s(responses_, timing_, modes[mode], psdu_bytes, modes_.cw_min());
     };
     // Of equal rates, the slower one is chosen. If nothing succeeded, the slowest rate is both the
     // best and the second best.

@@ -22,10 +22,12 @@
 
 #include <cstddef>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "netsim/kernel/random.hpp"
 #include "netsim/mac/rate_control.hpp"
+#include "netsim/mac/response_modes.hpp"
 #include "netsim/mac/timing.hpp"
 
 namespace netsim {
@@ -38,9 +40,14 @@ public:
         double ewma_weight;  // weight of the past in the mean, 0 to 1
     };
 
-    MinstrelRateControl(const ModeSet& modes, const Mode& initial, const Parameters& parameters,
-                        RandomStream draws)
-        : modes_(modes), timing_(modes), initial_(initial), parameters_(parameters), draws_(draws) {}
+    MinstrelRateControl(const ModeSet& modes, ResponseModes responses, const Mode& initial,
+                        const Parameters& parameters, RandomStream draws)
+        : modes_(modes),
+          responses_(std::move(responses)),
+          timing_(modes),
+          initial_(initial),
+          parameters_(parameters),
+          draws_(draws) {}
 
     const Mode& mode_for(const RateAttempt& attempt, SimTime now) override;
     void succeeded(const RateAttempt& attempt, const Mode& mode, SimTime now) override;
@@ -74,6 +81,7 @@ private:
     void count(const RateAttempt& attempt, const Mode& mode, bool success, SimTime now);
 
     const ModeSet& modes_;
+    ResponseModes responses_;
     MacTiming timing_;
     const Mode& initial_;
     Parameters parameters_;

@@ -31,7 +31,7 @@ std::unique_ptr<RateControl> make_rate_control(const MacConfig& config, std::uin
     }
     NETSIM_ASSERT(config.rate_control == "MinstrelRateControl");
     return std::make_unique<MinstrelRateControl>(
-        modes, initial_mode(config),
+        modes, ResponseModes(config), initial_mode(config),
         MinstrelRateControl::Parameters{SimTime::from_seconds(config.rate_update_interval_s),
                                         config.look_around_share, config.ewma_weight},
         RandomStream(seed, interface.stream(), Purpose::rate_control));

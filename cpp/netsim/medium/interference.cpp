@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace netsim {
 namespace {
@@ -73,7 +74,7 @@ double InterferenceSum::sum_w_at(SimTime moment) const {
 
 SimTime InterferenceSum::worst_moment() {
     if (!worst_moment_) {
-        worst_moment_ = find_worst_moment();
+        worst_moment_ = noise_.empty() ? find_worst_moment() : find_worst_moment_with_noise();
     }
     return *worst_moment_;
 }
@@ -108,8 +109,38 @@ SimTime InterferenceSum::find_worst_moment() {
     return worst;
 }
 
+double InterferenceSum::noise_w_at(SimTime moment) const {
+    const auto next = std::ranges::upper_bound(noise_, moment, {}, &InterferenceStep::start);
+    return next == noise_.begin() ? 0 : std::prev(next)->power_w;
+}
+
+double InterferenceSum::max_noise_w() const {
+    return noise_.empty() ? 0 : std::ranges::max(noise_, {}, &InterferenceStep::power_w).power_w;
+}
+
+// The sum rises only where a frame starts or the noise changes.
+SimTime InterferenceSum::find_worst_moment_with_noise() const {
+    SimTime worst = std::max(others_.front().start, start_);
+    double largest_w = 0;
+    const auto compare = [&](SimTime moment) {
+        const double frames_w = sum_w_at(moment);
+        if (frames_w > 0 && frames_w + noise_w_at(moment) > largest_w) {
+            largest_w = frames_w + noise_w_at(moment);
+            worst = moment;
+        }
+    };
+    for (const Other& other : others_) {
+        compare(std::max(other.start, start_));
+    }
+    for (const InterferenceStep& noise : noise_) {
+        compare(noise.start);
+    }
+    return worst;
+}
+
 double InterferenceSum::worst_w() {
-    return others_.empty() ? 0 : sum_w_at(worst_moment());
+    const double with_frames_w = others_.empty() ? 0 : worst_frames_w() + noise_w_at(worst_moment());
+    return std::max(with_frames_w, max_noise_w());
 }
 
 const std::vector<NodeId>& InterferenceSum::interferers() {
@@ -184,7 +215,32 @@ const std::vector<InterferenceStep>& InterferenceSum::steps() {
             steps_.push_back({time, sum.value()});
         }
     }
+    if (!noise_.empty()) {
+        add_noise_to_steps();
+    }
     return steps_;
+}
+
+void InterferenceSum::add_noise_to_steps() {
+    frame_steps_.swap(steps_);
+    steps_.clear();
+    std::size_t frame = 0;
+    std::size_t noise = 0;
+    while (frame < frame_steps_.size() || noise < noise_.size()) {
+        const bool is_frame_next =
+            noise == noise_.size() ||
+            (frame < frame_steps_.size() && frame_steps_[frame].start <= noise_[noise].start);
+        const SimTime time = is_frame_next ? frame_steps_[frame].start : noise_[noise].start;
+        for (; frame < frame_steps_.size() && frame_steps_[frame].start == time; ++frame) {
+        }
+        for (; noise < noise_.size() && noise_[noise].start == time; ++noise) {
+        }
+        const double sum_w =
+            (frame == 0 ? 0 : frame_steps_[frame - 1].power_w) + (noise == 0 ? 0 : noise_[noise - 1].power_w);
+        if (steps_.empty() || sum_w != steps_.back().power_w) {
+            steps_.push_back({time, sum_w});
+        }
+    }
 }
 
 }  // namespace netsim

@@ -1,5 +1,5 @@
-// The interference at a receiver during a reception: the sum of the other frames' powers, a step
-// function of time.
+// The interference at a receiver during a reception: the sum of the other frames' powers and of noise that
+// changes, a step function of time.
 //
 // The medium adds the other frames. The radio asks for the worst moment or for the whole function.
 // The sum changes only where a frame starts or ends, so one sweep over sorted starts and ends
@@ -29,6 +29,7 @@ public:
         start_ = start;
         end_ = end;
         others_.clear();
+        noise_.clear();
         worst_moment_.reset();
     }
     // Adds an interfering frame. Ignores a frame outside the period. Call it in the order of
@@ -40,9 +41,19 @@ public:
         }
     }
 
-    // The largest sum over the period, in W, without background noise.
+    // Adds noise from `start` until the next noise or the end of the period. Call it in the order of time, the
+    // first time for the start of the period.
+    void add_noise(SimTime start, double power_w) {
+        noise_.push_back({start, power_w});
+        worst_moment_.reset();
+    }
+
+    // The largest sum over the period, in W, with the added noise.
     double worst_w();
-    // The nodes that caused the largest sum, strongest first, each once. They sent the strongest
+    // The parts of that sum. With frames, those of the worst moment with one.
+    double worst_frames_w() { return others_.empty() ? 0 : sum_w_at(worst_moment()); }
+    double worst_noise_w() { return others_.empty() ? max_noise_w() : noise_w_at(worst_moment()); }
+    // The nodes that caused the largest sum of frames and noise at a moment with frames, strongest first, each once. They sent the strongest
     // frames on the air at that moment: as many as outweigh the rest together, and any as strong as
     // the last of these. Of several equally bad moments, the start of the earliest transmission
     // counts. Empty without interference. Valid until the next call of begin or interferers.
@@ -79,14 +90,20 @@ private:
     SimTime find_worst_moment();
     // The sum in the order of transmissions, for reproducible rounding.
     double sum_w_at(SimTime moment) const;
+    double noise_w_at(SimTime moment) const;
+    double max_noise_w() const;
+    SimTime find_worst_moment_with_noise() const;
+    void add_noise_to_steps();
 
     SimTime start_;
     SimTime end_;
     std::vector<Other> others_;
+    std::vector<InterferenceStep> noise_;
     std::vector<Change> starts_;
     std::vector<Change> ends_;
     std::vector<Moment> moments_;
     std::vector<InterferenceStep> steps_;
+    std::vector<InterferenceStep> frame_steps_;
     std::optional<SimTime> worst_moment_;
     std::vector<const Other*> strongest_;
     std::vector<NodeId> interferers_;

@@ -21,6 +21,7 @@ Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fat
       active_transmissions_(links_),
       energy_detection_(simulator, links_, active_transmissions_, *this),
       background_noise_(config),
+      other_systems_(config, seed),
       culling_(culling) {}
 
 RadioId Medium::attach(InterfaceId interface, const Receiver& receiver, const MountedAntenna& antenna) {

@@ -26,6 +26,7 @@
 #include "netsim/medium/cumulative_energy_detection.hpp"
 #include "netsim/medium/interference.hpp"
 #include "netsim/medium/links.hpp"
+#include "netsim/medium/other_systems.hpp"
 #include "netsim/medium/receiver.hpp"
 #include "netsim/propagation/transmission.hpp"
 #include "netsim/trace/frame_fates.hpp"
@@ -89,6 +90,7 @@ public:
     FrameFates& fates() { return fates_; }
     Fingerprint& fingerprint() { return fingerprint_; }
     const BackgroundNoise& background_noise() const { return background_noise_; }
+    const OtherSystems& other_systems() const { return other_systems_; }
     // Number of transmissions on the air, or ended but kept. Tests check that it stays small.
     std::size_t remembered_count() const { return active_transmissions_.size(); }
     // How often the power of a transmission at a radio was computed for sums of energy. Tests check
@@ -133,6 +135,7 @@ private:
     ActiveTransmissions active_transmissions_;    // on links_
     CumulativeEnergyDetection energy_detection_;  // over both
     BackgroundNoise background_noise_;
+    OtherSystems other_systems_;
     Culling culling_;
     SimTime remembered_;            // how long transmissions are kept after their end
     InterferenceSum interference_;  // result of interference_with, reused

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "netsim/config/check.hpp"
 #include "netsim/error.hpp"
@@ -87,7 +88,9 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
       noise_w_(BackgroundNoise(medium).power_w(receiver_.bandwidth_hz, receiver_.noise_figure)),
       error_model_(make_error_model(receiver_)),
       mode_(&broadcast_mode(sender_)),
-      psdu_bytes_(psdu_bytes_of(sender_, payload_bytes)) {
+      psdu_bytes_(psdu_bytes_of(sender_, payload_bytes)),
+      other_systems_w_(medium.other_systems_w),
+      other_systems_standard_deviation_db_(medium.other_systems_standard_deviation_db) {
     if (!band_.fits_in(Band{receiver_.carrier_hz, receiver_.bandwidth_hz})) {
         throw ConfigError(
             {"radio.carrier_hz", "", {receiver.name + " does not receive the channel of " + sender.name}});
@@ -97,6 +100,9 @@ LinkBudget::LinkBudget(const MediumConfig& medium, const NodeConfig& sender, con
                            "",
                            {receiver.name + " cannot decode " + std::string(mode_->name) + ", in which " +
                             sender.name + " broadcasts"}});
+    }
+    if (other_systems_w_ > 0) {
+        snr_needs_ = snr_needs();
     }
     if (propagation_.is_random()) {
         needs_ = shadowed(needs());
@@ -113,20 +119,61 @@ double LinkBudget::min_power_w() const {
 }
 
 double LinkBudget::success_probability(double power_w) const {
+    if (other_systems_w_ > 0) {
+        return success_with_other_systems(power_w);
+    }
     return error_model_->success_probability(*mode_, power_w / noise_w_, psdu_bytes_);
 }
 
 // Steps of the needed power. So powers derived from it are accurate to half a step, for any fading.
 constexpr double step_db = 0.02;
 
+// At more than this below or above the noise, no probability changes.
+constexpr double far_db = 100;
+constexpr double too_small = 1e-12;
+
+std::vector<LinkBudget::SnrNeed> LinkBudget::snr_needs() const {
+    const double least = std::max(receiver_.snir_threshold,
+                                  receiver_.preamble_detection.empty() ? 0 : receiver_.preamble_threshold);
+    std::vector<SnrNeed> all;
+    double known = 0;
+    for (double snr_db = -far_db; snr_db <= far_db; snr_db += step_db) {
+        const double snr = ratio_from_db(snr_db);
+        const double success = snr > least ? error_model_->success_probability(*mode_, snr, psdu_bytes_) : 0;
+        if (success - known > too_small) {
+            all.push_back({snr / ratio_from_db(step_db / 2), success - known});
+            known = success;
+        }
+    }
+    return all;
+}
+
+double LinkBudget::success_with_other_systems(double power_w) const {
+    double sum = 0;
+    for (const SnrNeed& need : snr_needs_) {
+        const double tolerated_w = power_w / need.snr - noise_w_;
+        if (tolerated_w <= 0) {
+            break;
+        }
+        const double above_median_db = db_from_ratio(tolerated_w / other_systems_w_);
+        // The share of the normal distribution below that.
+        sum +=
+            need.share *
+            (other_systems_standard_deviation_db_ > 0
+                 ? std::erfc(-above_median_db / other_systems_standard_deviation_db_ / std::numbers::sqrt2) /
+                       2
+                 : (above_median_db >= 0 ? 1.0 : 0.0));
+    }
+    return sum;
+}
+
 std::vector<LinkBudget::Need> LinkBudget::needs() const {
-    constexpr double far_db = 100;  // at more than this below or above the noise, no probability changes
-    constexpr double too_small = 1e-12;
     const double min_w = min_power_w();
     double known = success_probability(min_w);
     std::vector<Need> all{{min_w, known}};
-    const double first_w = std::max(min_w, noise_w_ * ratio_from_db(-far_db));
-    const double steps = (db_from_ratio(noise_w_ / first_w) + far_db) / step_db;  // none without noise
+    const double whole_noise_w = noise_w_ + other_systems_w_;
+    const double first_w = std::max(min_w, whole_noise_w * ratio_from_db(-far_db));
+    const double steps = (db_from_ratio(whole_noise_w / first_w) + far_db) / step_db;  // none without noise
     for (int step = 1; step <= steps; ++step) {
         const double success = success_probability(first_w * ratio_from_db(step_db * step));
         if (std::abs(success - known) > too_small) {

@@ -5,7 +5,9 @@
 // If the gain is random, the ratio is the mean over all states of the link. Let s(p) be the success
 // probability at received power p, C(x) the probability that the fading gain is at least x, and q
 // the received power without fading. The ratio is the mean of s(x q) over x: ∫ C(p / q) ds(p), by
-// integration by parts. Shadowing divides the power p that is needed, so it spreads ds. Antennas face
+// integration by parts. With other systems (medium/other_systems.hpp), s(p) is the mean over their power O: a
+// frame that needs the SNR r is decoded if O ≤ p / r - noise. It assumes that O is constant during a frame.
+// Shadowing divides the power p that is needed, so it spreads ds. Antennas face
 // each other with their largest gain, without obstacles between them.
 #pragma once
 
@@ -38,11 +40,16 @@ public:
     // for rounding. Throws ConfigError for numbers out of range, and if no power suffices.
     double tx_power_w_for(double range_m, double ratio) const;
 
+    // Of the sender's frames, in W.
+    double tx_power_w() const {
+        return netsim::tx_power_w(bitrate_bps(), sender_.radio.tx_power_w,
+                                  sender_.radio.tx_power_by_bitrate_w);
+    }
     double bitrate_bps() const { return static_cast<double>(mode_->bitrate_bps); }
     int psdu_bytes() const { return psdu_bytes_; }
     // The ratio of the mean received power to the transmitted power.
     double mean_gain(double distance_m) const;
-    // At the receiver, in W.
+    // At the receiver, in W, without other systems.
     double noise_w() const { return noise_w_; }
 
 private:
@@ -52,10 +59,19 @@ private:
         double share;
     };
 
+    // The SNR that a fraction of the frames needs to be decoded.
+    struct SnrNeed {
+        double snr;
+        double share;
+    };
+
     // The least power with which any frame is decoded.
     double min_power_w() const;
     // For a frame that arrives with at least min_power_w().
     double success_probability(double power_w) const;
+    // The same for the power of other systems at one moment, as a fraction of all moments.
+    double success_with_other_systems(double power_w) const;
+    std::vector<SnrNeed> snr_needs() const;
     std::vector<Need> needs() const;
     // The same needs, divided by all gains of the shadowing.
     std::vector<Need> shadowed(const std::vector<Need>& needs) const;
@@ -75,7 +91,10 @@ private:
     std::shared_ptr<const ErrorModel> error_model_;
     const Mode* mode_;
     int psdu_bytes_;
-    std::vector<Need> needs_;  // empty if the gain is not random
+    double other_systems_w_;
+    double other_systems_standard_deviation_db_;
+    std::vector<SnrNeed> snr_needs_;  // empty without other systems
+    std::vector<Need> needs_;         // empty if the gain is not random
 };
 
 }  // namespace netsim

@@ -10,6 +10,7 @@
 #include "netsim/mac/csma_ca_802154.hpp"
 #include "netsim/mac/dcf.hpp"
 #include "netsim/node/known_formats.hpp"
+#include "netsim/phy/oqpsk_mode.hpp"
 
 namespace netsim {
 
@@ -18,6 +19,23 @@ namespace {
 MediumConfig validated(MediumConfig config) {
     config.validate();
     return config;
+}
+
+// A power of a bitrate that no frame has is a mistake. One of another operation mode is not: profiles of
+// hardware have the powers of all modes.
+void check_powers(const InterfaceConfig& config) {
+    for (const auto& [bitrate_bps, power_w] : config.radio.tx_power_by_bitrate_w) {
+        if (config.type_name == ieee80211_interface) {
+            constexpr std::string_view with_all_bitrates = "g(mixed)";
+            mode_set(with_all_bitrates).mode_for_bitrate(bitrate_bps, "radio.tx_power_by_bitrate_w");
+        } else if (bitrate_bps != static_cast<double>(oqpsk_250_kbps.bitrate_bps)) {
+            throw ConfigError(
+                {.field = "radio.tx_power_by_bitrate_w",
+                 .value = Quantity{bitrate_bps, "bps"},
+                 .message = {"expected ", Quantity{static_cast<double>(oqpsk_250_kbps.bitrate_bps), "bps"}},
+                 .compared_with = {"interface.typename"}});
+        }
+    }
 }
 
 }  // namespace
@@ -145,6 +163,7 @@ void Network::check_with_medium(const std::string& node, const InterfaceConfig& 
              .compared_with = {"medium.background_noise_w", "medium.temperature_k", "radio.noise_figure",
                                "radio.bandwidth_hz", "medium.background_noise", "interface.typename"}});
     }
+    check_powers(config);
     radio_model(radio);
     if (config.type_name == ieee80211_interface && !is_ideal_) {
         dcf_parameters(config.mac);

@@ -31,7 +31,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     transmission.sender = interface();
     transmission.radio = id_;
     transmission.duration = duration;
-    transmission.power_w = tx_power_w_;
+    transmission.power_w = model_.tx_power_w(mode, tx_power_w_);
     transmission.band = model_.band;
     transmission.label = label;
     transmission.psdu_bytes = psdu_bytes;
@@ -208,7 +208,7 @@ void Radio::end_reception(const Arrival& arrival) {
     const bool decoded = fate == FrameFate::delivered;
     add_to_fingerprint(transmission, fate);
     if (is_observed_) {
-        observer_->received(arrival, model_.reception.noise_w, decoded);
+        observer_->received(arrival, model_.reception.noise_w + other_systems_w(arrival), decoded);
     }
     if (decoded) {
         book(transmission, fate);
@@ -226,14 +226,16 @@ void Radio::end_reception(const Arrival& arrival) {
 FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause) {
     // In a large network, some transmission is always on the air, usually far away. Then a bound of
     // the interference suffices, usually even without drawing the number.
-    const double min_success = model_.reception.min_success(arrival, medium().max_interference_w(arrival));
+    const double systems_w = other_systems_w(arrival);
+    const double min_success =
+        model_.reception.min_success(arrival, medium().max_interference_w(arrival) + systems_w);
     if (min_success == 1) {
         ++drawn_;  // skips the number
         return FrameFate::delivered;
     }
     const double draw = this->draw();
     if (draw < min_success ||
-        draw < model_.reception.min_success(arrival, medium().max_interference_w(id_, arrival))) {
+        draw < model_.reception.min_success(arrival, medium().max_interference_w(id_, arrival) + systems_w)) {
         return FrameFate::delivered;
     }
     listener_->prefetch_for_corrupted_frame();  // meanwhile, the sum is computed
@@ -243,7 +245,7 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause)
     if (model_.reception.survives(draw, arrival, interference_w)) {
         return FrameFate::delivered;
     }
-    if (interference_w > 0 && model_.reception.survives(draw, arrival, 0)) {
+    if (interference_w > systems_w && model_.reception.survives(draw, arrival, systems_w)) {
         cause = &interference;
         return FrameFate::interference;
     }
@@ -258,11 +260,15 @@ FrameFate Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
         cause = nullptr;
     }
     const double draw = this->draw();
-    InterferenceSum& interference = interference_in(arrival, period_of(FramePart::data, arrival));
+    const Period period = period_of(FramePart::data, arrival);
+    InterferenceSum& interference = interference_in(arrival, period);
     if (draw < model_.reception.success(FramePart::data, arrival, interference)) {
         return FrameFate::delivered;
     }
-    if (draw < model_.reception.success_undisturbed(FramePart::data, arrival)) {
+    InterferenceSum systems;
+    systems.begin(period.start, period.end);
+    medium().other_systems().add_to(systems, stream_, period.start, period.end);
+    if (draw < model_.reception.success(FramePart::data, arrival, systems)) {
         cause = &interference;
         return FrameFate::interference;
     }
@@ -304,10 +310,12 @@ void Radio::tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* i
     if (observer == nullptr || !observer->explains(lost.sender.node, node())) {
         return;
     }
-    FrameObserver::Loss loss{.receiver = node(),
-                             .power_w = arrival.power_w,
-                             .budget = medium().power_budget(id_, arrival),
-                             .noise_w = model_.reception.noise_w};
+    FrameObserver::Loss loss{
+        .receiver = node(),
+        .power_w = arrival.power_w,
+        .budget = medium().power_budget(id_, arrival),
+        .noise_w = model_.reception.noise_w +
+                   (interference == nullptr ? other_systems_w(arrival) : interference->worst_noise_w())};
     if (fate == FrameFate::header_error) {
         loss.needed = model_.needed_header_snir(*lost.mode);
     } else if (fate != FrameFate::preamble_undetected) {
@@ -319,7 +327,7 @@ void Radio::tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* i
         loss.needed = model_.preamble_detection.threshold();
     }
     if (interference != nullptr && loss.noise_w > 0) {
-        loss.interference_w = interference->worst_w();
+        loss.interference_w = interference->worst_frames_w();
         for (const NodeId interferer : interference->interferers()) {
             loss.interferers.push_back({interferer, interference->worst_w_of(interferer)});
         }

@@ -166,8 +166,15 @@ private:
     void tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
     // Always false without PreambleDetection::frees_channel.
     bool is_receiving_header() const;
+    // Other frames and other systems.
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
-        return medium().interference_with(id_, arrival, period.start, period.end);
+        InterferenceSum& sum = medium().interference_with(id_, arrival, period.start, period.end);
+        medium().other_systems().add_to(sum, stream_, period.start, period.end);
+        return sum;
+    }
+    // The most that other systems add to the noise during the frame, in W.
+    double other_systems_w(const Arrival& arrival) const {
+        return medium().other_systems().max_w(stream_, arrival.start, arrival.end);
     }
     void add_to_fingerprint(const Transmission& transmission, FrameFate fate);
     void book(const Transmission& transmission, FrameFate fate);

@@ -38,6 +38,7 @@ RadioModel::RadioModel(const RadioConfig& config, Medium& medium_, std::uint64_t
       preamble_detection(config),
       antenna(make_antenna(config.antenna, config.carrier_hz)),
       antenna_offset(config.antenna.offset),
+      tx_power_by_bitrate_w_(config.tx_power_by_bitrate_w),
       error_model_(make_error_model(config)) {
     reception = {error_model_.get(), config.snir_threshold,
                  medium.background_noise().power_w(config.bandwidth_hz, config.noise_figure)};

@@ -1,5 +1,5 @@
 // Data shared by all radios with the same configuration in one network. Created once and never
-// changed. The transmit power is not part of it, since it often differs from node to node.
+// changed. The usual transmit power is not part of it, since it often differs from node to node.
 //
 // In a large network, the memory that a frame touches at each radio determines the speed. Sharing
 // keeps it small.
@@ -32,6 +32,11 @@ public:
     // The same for the PHY headers alone, where they are decided separately (by_chunks).
     double needed_header_snir(const Mode& mode) const;
 
+    // The power in W of a frame in that mode, from a radio with that usual power.
+    double tx_power_w(const Mode& mode, double usual_w) const {
+        return netsim::tx_power_w(static_cast<double>(mode.bitrate_bps), usual_w, tx_power_by_bitrate_w_);
+    }
+
     Medium& medium;
     std::uint64_t seed;
     Band band;
@@ -45,6 +50,7 @@ public:
     Orientation antenna_offset;
 
 private:
+    PowersByBitrate tx_power_by_bitrate_w_;
     std::shared_ptr<const ErrorModel> error_model_;
     mutable std::map<std::pair<const Mode*, int>, double> needed_snir_;  // results so far
 };

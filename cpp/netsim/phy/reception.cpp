@@ -51,10 +51,6 @@ double ReceptionModel::success(FramePart part, const Arrival& arrival, Interfere
     return sum == 0 ? 1 : std::exp(sum);
 }
 
-double ReceptionModel::success_undisturbed(FramePart part, const Arrival& arrival) const {
-    return std::exp(log_success(part, arrival, 0));
-}
-
 double ReceptionModel::log_success(FramePart part, const Arrival& arrival, double interference_w) const {
     const double snir = this->snir(arrival, interference_w);
     if (!(snir > snir_threshold)) {

@@ -37,7 +37,8 @@ struct ReceptionModel {
     // From this interference on, every frame is lost, regardless of its power.
     double collision_w = std::numeric_limits<double>::infinity();
 
-    // A linear ratio; 0 if the interference reaches collision_w.
+    // A linear ratio; 0 if the interference reaches collision_w. Interference is that of other frames and other
+    // systems (medium/other_systems.hpp) here and below.
     double snir(const Arrival& arrival, double interference_w) const {
         return interference_w < collision_w ? arrival.power_w / (noise_w + interference_w) : 0;
     }
@@ -55,7 +56,6 @@ struct ReceptionModel {
     bool survives(double draw, const Arrival& arrival, double interference_w) const;
     // Success probability of one part, in mode "chunks", with the interference during its period.
     double success(FramePart part, const Arrival& arrival, InterferenceSum& interference) const;
-    double success_undisturbed(FramePart part, const Arrival& arrival) const;
 
 private:
     double log_success(FramePart part, const Arrival& arrival, double interference_w) const;

@@ -149,6 +149,7 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
         f"{above} noise), with a power of {_in_dbm(c.tx_power_w)} dBm:",
         "",
         f"    *.{c.sender}.{wlan}.radio.transmitter.power = {_in_mw(c.tx_power_w)}mW",
+        *_what_bitrate(c),
         "",
         *_what_is_beyond_radios(c.tx_power_w),
         *_what_decides("sensitivity", c.deciding_sensitivity_w),
@@ -161,6 +162,14 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
         bar = block * round(ratio * BAR_WIDTH)
         lines.append(f"{_in_metres(distance_m):>6} m  {100 * ratio:7.2f} %  {bar}".rstrip())
     return "\n".join(lines)
+
+
+def _what_bitrate(c: "Calibration") -> list[str]:
+    """Return a note if the line above is not what sets the power."""
+    if not c.is_of_bitrate:
+        return []
+    bitrate = f"{c.bitrate_bps / 1e6:g}Mbps"
+    return [f"    # or in transmitter.powerByBitrate, which counts: [{bitrate}, {_in_mw(c.tx_power_w)}mW]"]
 
 
 _STRONGEST_W = 1.0

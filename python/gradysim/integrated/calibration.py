@@ -59,6 +59,8 @@ class Calibration:
         obstacles_left_out: Number of obstacles that attenuate frames in a run. Calibration ignores them.
         deciding_preamble_w: The smallest power of the receiver's preamble detection if it needs more
             power than noise and sensitivity do; otherwise None.
+        is_of_bitrate: Whether the sender has a power for this bitrate alone, so that
+            `transmitter.powerByBitrate` has to be changed instead of `transmitter.power`.
         fine_curve: The curve with more points where it is steep, and two points at a step; for example, where
             the power falls below the sensitivity.
     """
@@ -79,6 +81,7 @@ class Calibration:
     obstacles_left_out: int = 0
     deciding_preamble_w: float | None = None
     fine_curve: tuple[tuple[float, float], ...] = ()
+    is_of_bitrate: bool = False
 
 
 def calibrate(
@@ -168,6 +171,7 @@ def calibrate(
         sender_interface=from_index,
         obstacles_left_out=len(scenario.obstacles) if medium_config(scenario).obstacle_loss else 0,
         deciding_preamble_w=preamble_w,
+        is_of_bitrate=budget.bitrate_bps in dict(node_config(from_node).wlan[0].radio.tx_power_by_bitrate_w),
         fine_curve=tuple(_refined(curve, lambda distance_m: budget.reception_ratio(distance_m, power_w))),
     )
 

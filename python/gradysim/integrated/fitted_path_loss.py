@@ -213,8 +213,7 @@ def _fit_powers(
     scenario: Scenario, measured: Sequence[tuple[float, float]], sender: NodeSpec, receiver: NodeSpec
 ) -> FittedPathLoss:
     budget = _free_space(scenario, sender, receiver, 0, 2.0, 0.0)
-    power_w = node_config(sender).wlan[0].radio.tx_power_w
-    at_one_metre_dbm = dbm_from_w(power_w) + db_from_ratio(budget.mean_gain(1.0))
+    at_one_metre_dbm = dbm_from_w(budget.tx_power_w) + db_from_ratio(budget.mean_gain(1.0))
 
     count = len(measured)
     tenths = [10 * math.log10(distance_m) for distance_m, _ in measured]
@@ -300,9 +299,7 @@ def _fit_deliveries(
     deviation_db = Fitted(alpha / slope, *(alpha / each for each in slopes))
     half_m = Fitted(*(10 ** (each / 10) for each in (halves.value, halves.low, halves.high)))
     budget = _free_space(scenario, sender, receiver, message_bytes, alpha, deviation_db.value)
-    in_hand_db = dbm_from_w(node_config(sender).wlan[0].radio.tx_power_w) - dbm_from_w(
-        budget.tx_power_w_for(half_m.value, 0.5)
-    )
+    in_hand_db = dbm_from_w(budget.tx_power_w) - dbm_from_w(budget.tx_power_w_for(half_m.value, 0.5))
     return FittedPathLoss(
         len(measured),
         min(distance_m for distance_m, _ in measured),

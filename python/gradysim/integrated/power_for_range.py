@@ -8,7 +8,7 @@ from gradysim.integrated.engine_errors import text_of
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import DEFAULT_INTERFACE, has_radios
-from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget, MediumConfig, NodeConfig
@@ -76,6 +76,7 @@ class PowersForRanges:
                 )
                 raise ConfigError.at(mtu.source, text)
             budget = load_netsim().LinkBudget(self._medium, config, config, MESSAGE_BYTES, index)
+            self._check_bitrate(budget.bitrate_bps, config, wlan, index)
             hint = ground_hint(self._medium, [spec])
             try:
                 power_w = budget.tx_power_w_for(config.wlan[index].radio.communication_range_m, RATIO)
@@ -84,3 +85,18 @@ class PowersForRanges:
                 raise ConfigError.at(wlan.radio["communication_range_m"].source, text) from error
             self._known[key] = power_w
         return power_w
+
+    def _check_bitrate(
+        self, bitrate_bps: float, config: "NodeConfig", wlan: InterfaceSpec, index: int
+    ) -> None:
+        """Raise ConfigError if the power that a range sets is not that of broadcasts."""
+        if bitrate_bps in dict(config.wlan[index].radio.tx_power_by_bitrate_w):
+            text = (
+                f"broadcasts have {bitrate_bps / 1e6:g} Mbps, whose power is that of"
+                " transmitter.powerByBitrate, so that no range sets it"
+            )
+            raise ConfigError.at(
+                wlan.radio["communication_range_m"].source,
+                text,
+                expected="powerByBitrate without this bitrate, or no range",
+            )

@@ -36,7 +36,7 @@ def ranges_m(scenario: Scenario) -> list[float | None]:
     """
 
     def range_m(radio: "RadioConfig", budget: "LinkBudget | None") -> float | None:
-        return radio.communication_range_m if budget is None else range_of(budget, radio.tx_power_w)
+        return radio.communication_range_m if budget is None else range_of(budget, budget.tx_power_w)
 
     return _of_each_radio(scenario, range_m)
 

@@ -59,6 +59,11 @@ def _has_shadowing(scenario: Scenario) -> bool:
     return _path_loss_is("LogNormalShadowing")(scenario) or (sigma is not None and float(sigma.value) > 0)
 
 
+def _has_other_systems(scenario: Scenario) -> bool:
+    power = scenario.medium.get("other_systems_w")
+    return _has_radios(scenario) and power is not None and float(power.value) > 0
+
+
 def _has_obstacles(scenario: Scenario) -> bool:
     chosen = scenario.medium.get("obstacle_loss")
     return bool(scenario.obstacles) and chosen is not None and bool(chosen.value)
@@ -207,6 +212,13 @@ LEVELS = (
         },
         _has_radios,
         needs=("radio",),
+    ),
+    Level(
+        "others",
+        "noise of other systems, which changes with time",
+        {"*.radioMedium.otherSystems.power": "0W"},
+        _has_other_systems,
+        needs=("radio", "noise"),
     ),
     Level(
         "shadowing",

@@ -49,8 +49,8 @@ def range_settings(scenario: Scenario) -> list[str]:
             config = node_config(spec)
             with node_errors_at(spec, scenario.medium):
                 known[key] = [
-                    f"{range_of(budget, interface.radio.tx_power_w)!r}m"
-                    for index, interface in enumerate(config.wlan)
+                    f"{range_of(budget, budget.tx_power_w)!r}m"
+                    for index in range(len(config.wlan))
                     for budget in [load_netsim().LinkBudget(medium, config, config, MESSAGE_BYTES, index)]
                 ]
         values[spec.id] = known[key]

@@ -6,8 +6,9 @@ keyword arguments: `quantity("s", above=0, shown="ms")`. Bounds are in the unit 
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors import BadValue, nearest
@@ -210,6 +211,56 @@ def power_ratio(at_least_db: float = -300) -> ParameterType:
         convert=lambda value: ratio_from_db(float(decibels.convert(value))),
         show=lambda ratio: decibels.show(db_from_ratio(float(ratio))),
     )
+
+
+def bitrates() -> ParameterType:
+    """Return the type of lists of bitrates, in bits per second."""
+    bitrate = quantity("bps", above=0, shown="Mbps")
+
+    def convert(value: Any) -> Any:
+        return tuple(float(bitrate.convert(element)) for element in _elements(value))
+
+    def show(value: Any) -> str:
+        return f"[{', '.join(map(bitrate.show, value))}]"
+
+    return ParameterType(
+        "a list of bitrates such as [1Mbps, 2Mbps]",
+        convert,
+        unit="list of bitrates",
+        show=show,
+        is_list=True,
+    )
+
+
+def powers_by_bitrate() -> ParameterType:
+    """Return the type of lists of pairs: a bitrate in bits per second and a power in watts."""
+    bitrate, power = quantity("bps", above=0, shown="Mbps"), quantity("W", at_least=0, shown="mW")
+
+    def pair(value: Any) -> tuple[float, float]:
+        elements = _elements(value)
+        if len(elements) != 2:
+            raise BadValue(f"`{text_of(value)}` is not a pair")
+        return float(bitrate.convert(elements[0])), float(power.convert(elements[1]))
+
+    def convert(value: Any) -> Any:
+        return tuple(map(pair, _elements(value)))
+
+    def show(value: Any) -> str:
+        return f"[{', '.join(f'[{bitrate.show(bps)}, {power.show(watts)}]' for bps, watts in value)}]"
+
+    return ParameterType(
+        "a list of bitrates with their powers such as [[48Mbps, 20dBm], [54Mbps, 19dBm]]",
+        convert,
+        unit="list of bitrates with powers",
+        show=show,
+        is_list=True,
+    )
+
+
+def _elements(value: Any) -> Sequence[Any]:
+    if not isinstance(value, tuple):
+        raise BadValue(f"`{text_of(value)}` is a single value")
+    return value
 
 
 def boolean() -> ParameterType:

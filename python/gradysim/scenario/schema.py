@@ -14,6 +14,7 @@ from typing import Any
 
 from gradysim.scenario.parameter_types import (
     ParameterType,
+    bitrates,
     boolean,
     choice,
     file_name,
@@ -22,6 +23,7 @@ from gradysim.scenario.parameter_types import (
     number,
     number_in,
     power_ratio,
+    powers_by_bitrate,
     quantity,
     text,
     whole_bytes,
@@ -139,6 +141,10 @@ def _kind(kind: str, **details: Any) -> ParameterType:
             return choice(*details["names"])
         case "file":
             return file_name()
+        case "bitrates":
+            return bitrates()
+        case "powers_by_bitrate":
+            return powers_by_bitrate()
     raise ValueError(f"schema.json has a type `{kind}` that {__name__} does not know")
 
 

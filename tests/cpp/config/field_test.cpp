@@ -66,6 +66,10 @@ void set_number(const Field& field, void* config, double value) {
     const Member member = field.of(config);
     if (auto* const* number = std::get_if<double*>(&member)) {
         **number = value;
+    } else if (auto* const* bitrates = std::get_if<Bitrates*>(&member)) {
+        **bitrates = {value};
+    } else if (auto* const* powers = std::get_if<PowersByBitrate*>(&member)) {
+        **powers = {{6e6, value}};
     } else {
         *std::get<int*>(member) = static_cast<int>(value);
     }

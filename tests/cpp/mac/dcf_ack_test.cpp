@@ -13,7 +13,9 @@ using test::ack_duration;
 using test::ack_timeout;
 using test::data_duration;
 using test::difs;
+using test::Heard;
 using test::light_microsecond_m;
+using test::of_kind;
 using test::sifs;
 using test::Station;
 using test::us;
@@ -48,6 +50,35 @@ TEST_F(DcfAck, ASlowAckIsWaitedForByTheNav) {
     alone.send(deaf.id(), 100);
     air.run();
     EXPECT_EQ(starts(FrameKind::unicast), (std::vector{us(0), us(1504 + 10 + 304 + 50)}));
+}
+
+TEST_F(DcfAck, HasABasicBitrate) {
+    MacConfig mac = without_backoff();
+    mac.op_mode = "b";
+    mac.bitrate_bps = 11e6;
+    mac.basic_bitrates_bps = {1e6, 2e6};
+    add_pair(mac);
+    a->send(b->id(), 100);
+    air.run();
+    const std::vector<Heard> acks = of_kind(*at_a, FrameKind::ack);
+    ASSERT_EQ(acks.size(), 1U);
+    EXPECT_EQ(acks.front().end - acks.front().start, us(192 + 14 * 8 / 2));
+}
+
+// The sender's own NAV has the length of the awaited ACK.
+TEST_F(DcfAck, TheNavCoversASlowBasicBitrate) {
+    MacConfig mac = without_backoff();
+    mac.op_mode = "b";
+    mac.bitrate_bps = 11e6;
+    mac.basic_bitrates_bps = {1e6};
+    mac.short_retry_limit = 2;
+    Station& alone = air.add_station({0, 0, 0}, mac);
+    Station& deaf = air.add_station({1e7, 0, 0}, mac);
+    at_a = &air.add_sniffer({0, 0, 0});
+    alone.send(deaf.id(), 100);
+    air.run();
+    const SimTime data = mode_set("b").mode_for_bitrate(11e6).duration(data_psdu_bytes(100));
+    EXPECT_EQ(starts(FrameKind::unicast), (std::vector{us(0), data + us(10 + 304 + 50)}));
 }
 
 TEST_F(DcfAck, GivesUpWhenTheAckTimeoutOfTheLastAttemptIsOver) {

@@ -26,6 +26,12 @@ const ModeSet& modes() {
     return mode_set("a");
 }
 
+ResponseModes responses() {
+    MacConfig config;
+    config.op_mode = "a";
+    return ResponseModes(config);
+}
+
 // Duration of one attempt on a free channel in 802.11a: DIFS 34 µs, 7.5 slots of 9 µs, SIFS
 // 16 µs.
 double attempt_us(std::size_t mode) {
@@ -49,7 +55,7 @@ std::size_t best_mode(const Shares& shares) {
 class LossyLink {
 public:
     LossyLink(std::uint64_t seed, double look_around)
-        : control(modes(), modes().fastest_mandatory(), {update_interval, look_around, 0.75},
+        : control(modes(), responses(), modes().fastest_mandatory(), {update_interval, look_around, 0.75},
                   RandomStream(seed, 0, Purpose::rate_control)),
           luck_(seed, 0, Purpose{1002}) {}
 
@@ -191,6 +197,7 @@ public:
 private:
     int psdu_bytes_;
     MinstrelRateControl control_{modes(),
+                                 responses(),
                                  modes().fastest_mandatory(),
                                  {update_interval, 0, 0.75},
                                  RandomStream(1, 0, Purpose::rate_control)};
@@ -295,7 +302,7 @@ TEST(MinstrelRateControl, ASlowerRateIsTriedOnlyAfterTheBestOneFailed) {
 
 // 24 Mbps succeeds in two intervals, 54 Mbps is tried only in the second one.
 TEST(MinstrelRateControl, OfARateThatWasNeverTriedTheFirstShareCountsInFull) {
-    MinstrelRateControl control(modes(), modes().fastest_mandatory(), {update_interval, 0, 0.75},
+    MinstrelRateControl control(modes(), responses(), modes().fastest_mandatory(), {update_interval, 0, 0.75},
                                 RandomStream(1, 0, Purpose::rate_control));
     const RateAttempt attempt{1, psdu_bytes, 0};
     control.succeeded(attempt, modes().modes()[4], SimTime());
@@ -306,7 +313,7 @@ TEST(MinstrelRateControl, OfARateThatWasNeverTriedTheFirstShareCountsInFull) {
 }
 
 TEST(MinstrelRateControl, AFrameTriesOneRateAtAllAttemptsOfTheSecondStage) {
-    MinstrelRateControl control(modes(), modes().fastest_mandatory(), {update_interval, 1, 0.75},
+    MinstrelRateControl control(modes(), responses(), modes().fastest_mandatory(), {update_interval, 1, 0.75},
                                 RandomStream(6, 0, Purpose::rate_control));
     for (int frame = 0; frame < 100; ++frame) {
         std::vector<std::size_t> used;

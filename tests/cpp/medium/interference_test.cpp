@@ -187,5 +187,59 @@ TEST_P(RandomFrames, StepsMatchTheSumAtEveryMoment) {
 
 INSTANTIATE_TEST_SUITE_P(Interference, RandomFrames, testing::Range<std::uint64_t>(0, 1000));
 
+// Frames from 2 to 6 µs with 1 W and from 4 to 8 µs with 2 W, and noise of 5 W from 5 µs on, of 1 W before.
+class WithNoise : public testing::Test {
+protected:
+    WithNoise() {
+        frames_.add(1, us(2), us(6), 1);
+        frames_.add(2, us(4), us(8), 2);
+        sum.begin(us(0), us(10));
+        for (const Arrival& frame : frames_.all) {
+            sum.add(frame);
+        }
+        sum.add_noise(us(0), 1);
+        sum.add_noise(us(5), 5);
+    }
+
+    InterferenceSum sum;
+
+private:
+    Frames frames_;
+};
+
+TEST_F(WithNoise, TheWorstMomentIsThatOfTheWholeSum) {
+    EXPECT_EQ(sum.worst_w(), 1 + 2 + 5);
+    EXPECT_EQ(sum.worst_frames_w(), 1 + 2);
+    EXPECT_EQ(sum.worst_noise_w(), 5);
+    EXPECT_EQ(sum.worst_w_of(1), 1);
+    EXPECT_EQ(sum.interferers(), std::vector<NodeId>{2});
+}
+
+TEST_F(WithNoise, NoiseAloneMayBeTheWorst) {
+    sum.add_noise(us(9), 20);
+    EXPECT_EQ(sum.worst_w(), 20);
+    EXPECT_EQ(sum.worst_frames_w(), 1 + 2);
+    EXPECT_EQ(sum.worst_noise_w(), 5);
+}
+
+TEST_F(WithNoise, StepsHaveBoth) {
+    const std::vector<InterferenceStep> expected{{us(0), 1}, {us(2), 2}, {us(4), 4},
+                                                 {us(5), 8}, {us(6), 7}, {us(8), 5}};
+    EXPECT_EQ(sum.steps(), expected);
+}
+
+TEST(InterferenceSum, NoiseWithoutFrames) {
+    InterferenceSum sum;
+    sum.begin(us(0), us(10));
+    sum.add_noise(us(0), 3);
+    sum.add_noise(us(5), 2);
+    EXPECT_EQ(sum.worst_w(), 3);
+    EXPECT_EQ(sum.worst_noise_w(), 3);
+    EXPECT_EQ(sum.worst_frames_w(), 0);
+    EXPECT_TRUE(sum.interferers().empty());
+    sum.begin(us(0), us(10));
+    EXPECT_EQ(sum.worst_w(), 0);
+}
+
 }  // namespace
 }  // namespace netsim

@@ -320,5 +320,61 @@ TEST(RadioNoise, ThermalNoiseIsAPropertyOfTheReceiver) {
     EXPECT_EQ(air.broadcast_count_at(noisy, FrameFate::noise), 1U);
 }
 
+// A receiver whose frames are lost only below 3 dB, and other systems that change each 100 µs.
+class RadioAmongOtherSystems : public testing::Test {
+protected:
+    static MediumConfig medium() {
+        MediumConfig medium;
+        medium.background_noise_w = 1e-12;
+        medium.other_systems_w = 1e-12;
+        medium.other_systems_standard_deviation_db = 6;
+        medium.other_systems_coherence_time_s = 1e-4;
+        return medium;
+    }
+    static RadioConfig receiver_config(const char* snir_mode) {
+        RadioConfig config;
+        config.error_model = "";
+        config.snir_threshold = 2;
+        config.sensitivity_w = 1e-15;
+        config.energy_detection_w = 1;
+        config.snir_mode = snir_mode;
+        return config;
+    }
+    // How many of 300 frames of 250 µs are received, and how many had a SNR above 2 throughout the part that is decided.
+    void compare(const char* snir_mode, SimTime first, SimTime last) {
+        constexpr double received_w = 6e-12;
+        Air air(medium());
+        BareRadio& receiver = air.add_radio({0, 0, 0}, receiver_config(snir_mode));
+        BareRadio& sender =
+            air.add_radio(Position{1, 0, 0} * light_microsecond_m,
+                          test::radio_of_power(test::power_for(received_w, light_microsecond_m)));
+        std::uint64_t expected = 0;
+        constexpr int count = 300;
+        for (int i = 0; i < count; ++i) {
+            const SimTime start = us(1000 * i + 37);
+            air.at(start - us(1), [&sender] { sender.send(us(250), 90); });
+            const double most_w = air.medium.other_systems().max_w(receiver.radio.interface().stream(),
+                                                                   start + first, start + last);
+            expected += received_w / (1e-12 + most_w) > 2 ? 1 : 0;
+        }
+        air.run();
+        EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::delivered), expected);
+        EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::noise) +
+                      air.broadcast_count_at(receiver, FrameFate::header_error),
+                  count - expected);
+        EXPECT_GT(expected, 20U);
+        EXPECT_LT(expected, 280U);
+    }
+};
+
+TEST_F(RadioAmongOtherSystems, TheWorstMomentDecides) {
+    compare("min", us(0), us(250));
+}
+
+// The preamble of 16 µs does not count.
+TEST_F(RadioAmongOtherSystems, EachIntervalDecidesByChunks) {
+    compare("chunks", us(16), us(250));
+}
+
 }  // namespace
 }  // namespace netsim

@@ -162,11 +162,5 @@ TEST(Reception, AMomentBelowTheThresholdIsTheEnd) {
     EXPECT_EQ(model(10).success(frame.arrival, 10 * noise_w), 0);
 }
 
-TEST(Reception, UndisturbedIsWithoutTheOthers) {
-    const Frame100 frame(mode_set("a").mode_for_bitrate(6e6), 2);
-    EXPECT_EQ(model().success_undisturbed(FramePart::data, frame.arrival),
-              success(model(), FramePart::data, frame.arrival));
-}
-
 }  // namespace
 }  // namespace netsim

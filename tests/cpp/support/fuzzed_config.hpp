@@ -71,8 +71,9 @@ private:
                 **integer = static_cast<int>(finite(value(field.type, **integer), **integer));
             } else if (auto* const* flag = std::get_if<bool*>(&member)) {
                 **flag = bytes_.flag() != **flag;
-            } else if (bytes_.flag()) {
-                *std::get<std::string*>(member) = bytes_.name(field.type.names);
+            } else if (auto* const* name = std::get_if<std::string*>(&member);
+                       name != nullptr && bytes_.flag()) {
+                **name = bytes_.name(field.type.names);
             }
         }
     }
@@ -133,6 +134,9 @@ private:
         if (bytes_.flag()) {
             mac(config.mac);
         }
+        if (bytes_.below(4) == 1) {
+            config.radio.tx_power_by_bitrate_w = {{bitrate_bps(config.mac.op_mode), bytes_.number(0.1)}};
+        }
         return config;
     }
 
@@ -142,6 +146,9 @@ private:
         mac.multicast_bitrate_bps = bitrate_bps(mac.op_mode);
         mac.control_bitrate_bps = bitrate_bps(mac.op_mode);
         mac.initial_rate_bps = bitrate_bps(mac.op_mode);
+        for (std::uint32_t count = bytes_.below(4); count > 1; --count) {
+            mac.basic_bitrates_bps.push_back(bitrate_bps(mac.op_mode));
+        }
         if (bytes_.flag()) {  // so short that it overflows
             mac.queue_capacity = 1 + bytes_.byte() % 4;
         }

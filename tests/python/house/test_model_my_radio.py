@@ -2,6 +2,7 @@
 
 import math
 import re
+import statistics
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.calibration import calibrate
+from gradysim.integrated.network import node_config
 from gradysim.integrated.network_lint import lint_networks
 from gradysim.integrated.ranges import ranges_m
 from gradysim.scenario import Scenario, load_scenarios
@@ -73,3 +75,22 @@ def test_each_measured_profile_is_told_and_read(page: str, root: Path, tmp_path:
         (tmp_path / "with.ini").write_text(f"[General]{NODES}include {profile.name}\n")
         (scenario,) = load_scenarios(tmp_path / "with.ini")
         assert lint_networks([scenario]) == []
+
+
+def test_each_node_draws_its_noise_figure(
+    code_blocks: Callable[[str, str], list[str]], tmp_path: Path
+) -> None:
+    thermal, drawn = code_blocks(PAGE, "ini")[1:3]
+    (tmp_path / "drawn.ini").write_text(f"[General]{NODES}{drawn}{thermal}")
+
+    def figures_db(seed: int) -> list[float]:
+        overrides = f"seed-set = {seed}", "*.numN = 400"
+        (scenario,) = load_scenarios(tmp_path / "drawn.ini", overrides=overrides)
+        return [10 * math.log10(node_config(spec).wlan[0].radio.noise_figure) for spec in scenario.nodes]
+
+    figures = figures_db(1)
+    assert len(set(figures)) == len(figures)
+    assert statistics.mean(figures) == pytest.approx(4, abs=0.08)
+    assert statistics.stdev(figures) == pytest.approx(0.4, rel=0.15)
+    assert figures_db(1) == figures
+    assert figures_db(2) != figures

@@ -33,6 +33,8 @@ def test_the_default_radio_has_no_effect_beyond_noise(make_campaign: Callable[..
 @pytest.mark.parametrize(
     ("line", "added"),
     [
+        ("*.radioMedium.otherSystems.power = -95dBm", ["others"]),
+        ("*.radioMedium.otherSystems.power = 0W", []),
         ('*.radioMedium.pathLoss.typename = "LogNormalShadowing"', ["shadowing"]),
         ("*.radioMedium.shadowing.standardDeviation = 4dB", ["shadowing"]),
         ("*.radioMedium.shadowing.standardDeviation = 0dB", []),

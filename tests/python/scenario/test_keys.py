@@ -1,4 +1,6 @@
-from gradysim.scenario.expressions import parse_value
+from typing import Any
+
+from gradysim.scenario.expressions import parse_list, parse_value
 from gradysim.scenario.keys import GROUP_SIZE, NETWORK_KEYS, NODE_KEYS, OBSTACLE_KEYS, obstacle_path
 from gradysim.scenario.schema import ReadBy, engine_keys
 
@@ -45,4 +47,6 @@ def test_the_interface_is_written_with_a_wildcard() -> None:
 def test_every_default_that_is_listed_can_be_written() -> None:
     for key in (key for keys in engine_keys().values() for key in keys):
         for value in key.defaults.values():
-            assert key.kind.convert(parse_value(key.kind.show(value))) is not None, key.path
+            shown = key.kind.show(value)
+            written: Any = parse_list(shown) if key.kind.is_list else parse_value(shown)
+            assert key.kind.convert(written) is not None, key.path
