@@ -2,9 +2,13 @@
 
 import math
 import random
+import re
 import statistics
+from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
+from textwrap import indent
+from typing import Any
 
 import pytest
 
@@ -16,18 +20,42 @@ from gradysim.integrated.run import run
 
 PAGE = "docs/how-to/model-a-board.md"
 SPREAD = "*.*.computer.processingTimeSpread"
+CodeBlocks = Callable[[str, str], list[str]]
 
 
-@pytest.mark.parametrize(("spread", "readings"), [(None, 0), ("0", 0), ("1.9", 272)])
-def test_its_readings(root: Path, spread: str | None, readings: int) -> None:
-    lines = ["sim-time-limit=10min", "repeat=1"]
-    if spread is not None:
-        lines += ["*.*.computer.processingTime=0.4ms", f"{SPREAD}={spread}"]
-    (scenario,) = load_scenarios(root / "configs/zigzag.ini", "ZigZag5Synchronised", overrides=lines)
+@pytest.mark.parametrize(("changes", "readings"), [(None, 0), (f"{SPREAD}=0", 0), ("", 272)])
+def test_its_readings(root: Path, code_blocks: CodeBlocks, changes: str | None, readings: int) -> None:
+    (lines,) = code_blocks(PAGE, "sh")
+    board, scenario_lines = (
+        re.findall(r"--set ([^\s\"]+)", next(line for line in lines.splitlines() if line.startswith(name)))
+        for name in ("board=", "scenario=")
+    )
+    overrides = scenario_lines if changes is None else [*filter(None, [changes]), *board, *scenario_lines]
+    (scenario,) = load_scenarios(root / "configs/zigzag.ini", "ZigZag5Synchronised", overrides=overrides)
     station = next(node for node in run(scenario).nodes if node.name == "groundStation")
     assert station.tracked_variables["data"] == readings
     if readings:
         assert f" {readings} readings" in (root / PAGE).read_text(encoding="utf-8")
+
+
+BURST = """
+class Tested(Quiet):
+    interval = 1.0
+    def initialize(self):
+        for _ in range(3):
+            self.provider.send_communication_command(BroadcastMessageCommand("burst"))
+    def finish(self):
+        self.provider.tracked_variables["interval"] = self.interval
+"""
+
+
+def test_its_callback_is_called_unless_the_queue_blocks(make_scenario: Any, code_blocks: CodeBlocks) -> None:
+    (callback,), (blocks,) = code_blocks(PAGE, "python"), code_blocks(PAGE, "ini")
+    python = BURST + indent(callback, "    ")
+    full = "**.pendingQueue.packetCapacity = 1"
+    for lines, interval in (((full,), 4.0), ((full, blocks.strip()), 1.0)):
+        nodes = run(make_scenario(python, *lines)).nodes
+        assert {node.tracked_variables["interval"] for node in nodes} == {interval}
 
 
 @pytest.fixture
