@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "config/error_text.hpp"
+#include "netsim/config/computer_config.hpp"
 #include "netsim/config/interface_config.hpp"
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/mobility_config.hpp"
@@ -36,20 +37,18 @@ public:
     }
 
 private:
+    ComputerConfig computer_;
     InterfaceConfig interface_;
     MediumConfig medium_;
     MobilityConfig mobility_;
     ObstacleConfig obstacle_;
     WindConfig wind_;
-    std::vector<std::pair<const Schema*, void*>> configs_{{&InterfaceConfig::schema, &interface_},
-                                                          {&MacConfig::schema, &interface_.mac},
-                                                          {&CsmaConfig::schema, &interface_.csma},
-                                                          {&RadioConfig::schema, &interface_.radio},
-                                                          {&AntennaConfig::schema, &interface_.radio.antenna},
-                                                          {&MediumConfig::schema, &medium_},
-                                                          {&MobilityConfig::schema, &mobility_},
-                                                          {&ObstacleConfig::schema, &obstacle_},
-                                                          {&WindConfig::schema, &wind_}};
+    std::vector<std::pair<const Schema*, void*>> configs_{
+        {&ComputerConfig::schema, &computer_},     {&InterfaceConfig::schema, &interface_},
+        {&MacConfig::schema, &interface_.mac},     {&CsmaConfig::schema, &interface_.csma},
+        {&RadioConfig::schema, &interface_.radio}, {&AntennaConfig::schema, &interface_.radio.antenna},
+        {&MediumConfig::schema, &medium_},         {&MobilityConfig::schema, &mobility_},
+        {&ObstacleConfig::schema, &obstacle_},     {&WindConfig::schema, &wind_}};
 };
 
 // The field that the check of the struct reports; "" for none.

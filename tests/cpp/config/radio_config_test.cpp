@@ -15,7 +15,7 @@ TEST(RadioConfig, DefaultsInTheDecibelsThatPeopleKnow) {
     EXPECT_EQ(config.tx_power_w, 0.02);
     EXPECT_DOUBLE_EQ(config.sensitivity_w, w_from_dbm(-85));
     EXPECT_DOUBLE_EQ(config.energy_detection_w, w_from_dbm(-85));
-    EXPECT_DOUBLE_EQ(config.snir_threshold, ratio_from_db(4));
+    EXPECT_DOUBLE_EQ(config.snir_threshold, ratio_from_db(1));
     EXPECT_NO_THROW(config.validate());
 }
 

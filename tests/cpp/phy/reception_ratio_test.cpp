@@ -61,7 +61,8 @@ protected:
                medium.background_noise_w;
     }
     double success_at(double distance_m) const {
-        return NistErrorModel(inet_rates).success_probability(mode, snr_at(distance_m), psdu_bytes);
+        return error_model(RadioConfig().error_model)
+            .success_probability(mode, snr_at(distance_m), psdu_bytes);
     }
     // Distance at which the probability of success falls to `probability`.
     double distance_of(double probability) const {

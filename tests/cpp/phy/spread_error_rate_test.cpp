@@ -72,7 +72,8 @@ void expect_codeword_error(std::int64_t bitrate_bps, const std::vector<Codeword>
     for (const double snir : {0.8, 1.5, 2.0, 2.5, 3.5}) {
         const double bit_error = despreading_rates(bitrate_bps).bit_error(snir);
         for (const std::size_t sent : {std::size_t{0}, codewords.size() - 1}) {
-            EXPECT_NEAR((1 - std::pow(1 - bit_error, bits)) / codeword_error(codewords, sent, snir), 1, 1e-6)
+            EXPECT_NEAR(-std::expm1(bits * std::log1p(-bit_error)) / codeword_error(codewords, sent, snir), 1,
+                        1e-6)
                 << bitrate_bps << " bps, SNIR " << snir;
         }
     }
