@@ -21,7 +21,9 @@ using test::us;
 class PartialOverlap : public test::RadioAmongSenders {
 protected:
     void SetUp() override {
-        receiver = &add_receiver();
+        RadioConfig config;
+        config.snir_threshold = 3;
+        receiver = &add_receiver(config);
         arrives(add_sender(strong_w), us(100), us(100));
         one = &add_sender(strong_w / 5);
         other = &add_sender(strong_w / 5);
