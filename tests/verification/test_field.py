@@ -99,7 +99,7 @@ def loaded(tmp_path: Path) -> Callable[..., Scenario]:
 
 def snr_db(
     loaded: Callable[..., Scenario],
-    mbps: int,
+    mbps: float,
     *lines: str,
     ratio: float = 0.9,
     message_bytes: int = MESSAGE_B,
@@ -160,19 +160,27 @@ def test_sensitivities(field: Report, loaded: Callable[..., Scenario], device: s
     )
 
 
-@pytest.mark.parametrize("curves", ["the default", "INET's", "ns-3's"])
+CURVES: Mapping[str, Sequence[str]] = {
+    "the default": (),
+    "INET's": ('**.wlan[*].radio.receiver.errorModel.typename = "Ieee80211NistErrorModel"',),
+    "ns-3's": (
+        "**.wlan[*].radio.receiver.snirThreshold = -200dB",
+        '**.wlan[*].radio.receiver.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        f'**.wlan[*].radio.receiver.errorModel.berTableFile = "{PROFILES}/ns3_error_rates.csv"',
+    ),
+}
+"""Error rates of 802.11b, as lines of a scenario."""
+
+
+def above_6_mbps_db(loaded: Callable[..., Scenario], mbps: float, curves: str) -> float:
+    """Return by how much a bitrate of 802.11b needs more than 6 Mbps of OFDM."""
+    lines = ['**.wlan[*].opMode = "b"', "**.wlan[*].radio.bandwidth = 20MHz", *CURVES[curves]]
+    return snr_db(loaded, mbps, *lines) - snr_db(loaded, 6)
+
+
+@pytest.mark.parametrize("curves", CURVES)
 def test_80211b_needs_less_than_ofdm(field: Report, loaded: Callable[..., Scenario], curves: str) -> None:
-    lines = ['**.wlan[*].opMode = "b"', "**.wlan[*].radio.bandwidth = 20MHz"]
-    if curves == "INET's":
-        lines += ['**.wlan[*].radio.receiver.errorModel.typename = "Ieee80211NistErrorModel"']
-    if curves == "ns-3's":
-        lines += [
-            "**.wlan[*].radio.receiver.snirThreshold = -200dB",
-            '**.wlan[*].radio.receiver.errorModel.typename = "Ieee80211BerTableErrorModel"',
-            f'**.wlan[*].radio.receiver.errorModel.berTableFile = "{PROFILES}/ns3_error_rates.csv"',
-        ]
-    six = snr_db(loaded, 6)
-    one, eleven = (snr_db(loaded, mbps, *lines) - six for mbps in (1, 11))
+    one, eleven = (above_6_mbps_db(loaded, mbps, curves) for mbps in (1, 11))
     is_near = -5 <= one <= 2 and -2 <= eleven <= 4
     field(
         FieldRow(
@@ -405,39 +413,51 @@ BAD_FRAMES = {
 """{signal in dBm, not calibrated: fraction of frames with a wrong checksum}, 390 frames or more each."""
 
 
-def test_frames_lost_to_noise_of_other_systems(field: Report, loaded: Callable[..., Scenario]) -> None:
-    signals = list(BAD_FRAMES)
+def fitted_noises() -> tuple[float, float, float]:
+    """Return background and median of other systems in dBm, and its sd in dB, fitted to every second signal.
+
+    They are the noises at which half of the frames are lost.
+    """
 
     def lost(signal_dbm: float, noise_dbm: float, median_dbm: float, sd_db: float) -> float:
-        """Return the fraction of frames whose signal is below the two noises, for the fit."""
         most = 10 ** (signal_dbm / 10) - 10 ** (noise_dbm / 10)
         return 1 - statistics.NormalDist(median_dbm, sd_db).cdf(10 * math.log10(most)) if most > 0 else 1
 
     def squares(parameters: tuple[float, float, float]) -> float:
-        return sum((lost(signal, *parameters) - BAD_FRAMES[signal]) ** 2 for signal in signals[::2])
+        return sum((lost(signal, *parameters) - BAD_FRAMES[signal]) ** 2 for signal in list(BAD_FRAMES)[::2])
 
-    noise_dbm, median_dbm, sd_db = min(
-        itertools.product(range(-75, -64), range(-64, -54), range(6, 25)), key=squares
-    )
+    return min(itertools.product(range(-75, -64), range(-64, -54), range(6, 25)), key=squares)
+
+
+def lost_frames(
+    loaded: Callable[..., Scenario], noise_dbm: float, *others_dbm_db: float
+) -> dict[float, float]:
+    """Return the fraction of lost frames for each signal in dBm; `others_dbm_db` are median and sd."""
     radio = '**.wlan[*].opMode = "b"', "**.wlan[*].bitrate = 1Mbps"
     needed_db = snr_db(loaded, 1, radio[0], ratio=0.5, message_bytes=832)
+    lines = [f"*.radioMedium.backgroundNoise.power = {noise_dbm - needed_db}dBm"]
+    if others_dbm_db:
+        median_dbm, sd_db = others_dbm_db
+        lines += [
+            f"*.radioMedium.otherSystems.power = {median_dbm - needed_db}dBm",
+            f"*.radioMedium.otherSystems.standardDeviation = {sd_db}dB",
+        ]
+    scenario = loaded(THERMAL.replace("ThermalNoise", "IsotropicScalarBackgroundNoise"), *lines, *radio)
+    budget = link_budget(scenario, scenario.nodes[0], scenario.nodes[0], 832)
+    return {
+        signal: 1 - budget.reception_ratio(1000, 10 ** (signal / 10 - 3) / budget.mean_gain(1000))
+        for signal in BAD_FRAMES
+    }
 
-    def worst(noise_dbm: float, *others: str) -> float:
-        background = f"*.radioMedium.backgroundNoise.power = {noise_dbm - needed_db}dBm"
-        file = THERMAL.replace("ThermalNoise", "IsotropicScalarBackgroundNoise")
-        scenario = loaded(file, background, *radio, *others)
-        budget = link_budget(scenario, scenario.nodes[0], scenario.nodes[0], 832)
-        sent_w = {signal: 10 ** (signal / 10 - 3) / budget.mean_gain(1000) for signal in signals}
-        return max(
-            abs(1 - budget.reception_ratio(1000, sent_w[signal]) - BAD_FRAMES[signal])
-            for signal in signals[1::2]
-        )
 
-    worst_off = worst(
-        noise_dbm,
-        f"*.radioMedium.otherSystems.power = {median_dbm - needed_db}dBm",
-        f"*.radioMedium.otherSystems.standardDeviation = {sd_db}dB",
-    )
+def test_frames_lost_to_noise_of_other_systems(field: Report, loaded: Callable[..., Scenario]) -> None:
+    noise_dbm, median_dbm, sd_db = fitted_noises()
+
+    def worst(*noises: float) -> float:
+        lost = lost_frames(loaded, *noises)
+        return max(abs(lost[signal] - BAD_FRAMES[signal]) for signal in list(BAD_FRAMES)[1::2])
+
+    worst_off = worst(noise_dbm, median_dbm, sd_db)
     field(
         FieldRow(
             "O",

@@ -8,14 +8,19 @@ from typing import TYPE_CHECKING
 from gradysim.motion.flight_controller import Airframe
 from gradysim.scenario import Scenario
 from verification.test_field import (
+    BAD_FRAMES,
     CISCO_DB,
+    CURVES,
     FIELD_LEGS_S,
     NOISE_DBM,
     POWERS_DBM,
     SENSITIVITIES_DBM,
     TWIN_LEGS_S,
+    above_6_mbps_db,
     duration_s,
+    fitted_noises,
     loaded,
+    lost_frames,
     snr_db,
 )
 
@@ -29,10 +34,24 @@ def test_picture(
     picture: Callable[[str, Callable[[Path], None]], None], loaded: Callable[..., Scenario]
 ) -> None:
     levels_db = {mbps: snr_db(loaded, mbps) for mbps in CISCO_DB}
-    picture("field.png", lambda path: draw(path, levels_db))
+    above_db = {curves: {mbps: above_6_mbps_db(loaded, mbps, curves) for mbps in B_MBPS} for curves in CURVES}
+    noise_dbm, median_dbm, sd_db = fitted_noises()
+    lost = {
+        "engine": lost_frames(loaded, noise_dbm, median_dbm, sd_db),
+        "with constant noise": lost_frames(loaded, median_dbm),
+    }
+    picture("field.png", lambda path: draw(path, levels_db, above_db, lost))
 
 
-def draw(path: Path, levels_db: dict[int, float]) -> None:
+B_MBPS = (1, 2, 5.5, 11)
+
+
+def draw(
+    path: Path,
+    levels_db: dict[int, float],
+    above_db: dict[str, dict[float, float]],
+    lost: dict[str, dict[float, float]],
+) -> None:
     from verification.figure import MODEL, OURS, save
 
     def bitrates(axes: "Axes") -> None:
@@ -56,14 +75,14 @@ def draw(path: Path, levels_db: dict[int, float]) -> None:
     def legs(axes: "Axes") -> None:
         lengths_m = range(6, 86, 2)
         for label, measured, color, wait_s, speed_mps, airframe in (
-            ("in the field", FIELD_LEGS_S, OURS, 0.55, 4.5, Airframe(1.0)),
+            ("in the field", FIELD_LEGS_S, OURS, 0.65, 4.5, Airframe(1.1)),
             ("simulated autopilot", TWIN_LEGS_S, MODEL, 0.73, 10.0, Airframe()),
         ):
             times_s = [wait_s + duration_s(leg_m, speed_mps, airframe) for leg_m in lengths_m]
             axes.plot(lengths_m, times_s, color=color, lw=1.2, label=f"engine, {label}")
             axes.plot(list(measured), list(measured.values()), "o", color=color, ms=4, label=label)
         axes.set(xlabel="length of a leg (m)", ylabel="time (s)")
-        axes.set_title("legs of a copter: start and acceleration fitted", fontsize=9)
+        axes.set_title("legs of a copter: delay and acceleration fitted", fontsize=9)
         axes.legend(fontsize=7.5)
 
     def powers(axes: "Axes") -> None:
@@ -79,4 +98,24 @@ def draw(path: Path, levels_db: dict[int, float]) -> None:
         axes.set_title("power over distance: one loss fitted to 0, 10, 20 dBm", fontsize=9)
         axes.legend(fontsize=7.5)
 
-    save(path, "Engine (lines) and measurements (points)", bitrates, sensitivities, powers, legs, columns=2)
+    def slow_bitrates(axes: "Axes") -> None:
+        for style, (curves, above) in zip(("-", "--", ":"), above_db.items(), strict=True):
+            label = "engine" if curves == "the default" else f"with {curves} curves"
+            axes.plot(list(above), list(above.values()), style, color=OURS, lw=1.2, label=label)
+        axes.errorbar([1, 11], [-1.5, 1], yerr=[1.5, 1], fmt="o", color=MODEL, ms=4, label="three devices")
+        axes.set(xlabel="bitrate of 802.11b (Mbps)", ylabel="needs above 6 Mbps of 802.11g (dB)")
+        axes.set_title("802.11b: nothing fitted", fontsize=9)
+        axes.legend(fontsize=7.5)
+
+    def other_systems(axes: "Axes") -> None:
+        for style, (label, fractions) in zip(("-", ":"), lost.items(), strict=True):
+            axes.plot(list(fractions), list(fractions.values()), style, color=OURS, lw=1.2, label=label)
+        axes.plot(
+            list(BAD_FRAMES), list(BAD_FRAMES.values()), "o", color=MODEL, ms=4, label="airplane to hill"
+        )
+        axes.set(xlabel="signal (dBm, not calibrated)", ylabel="fraction of frames lost")
+        axes.set_title("other systems: noise fitted to every second point", fontsize=9)
+        axes.legend(fontsize=7.5)
+
+    panels = (bitrates, sensitivities, slow_bitrates, powers, other_systems, legs)
+    save(path, "Engine (lines) and measurements (points)", *panels, columns=2)

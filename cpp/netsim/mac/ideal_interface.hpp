@@ -133,7 +133,7 @@ private:
     // The most that other systems add to the noise during a frame, in W. Unlike the MAC's radio, this interface
     // takes the most of noise and interference together, even if they have it at different times.
     double other_systems_w(const Arrival& arrival) const {
-        return radio_->model->medium.other_systems().max_w(stream_, arrival.start, arrival.end);
+        return radio_ ? radio_->model->medium.other_systems().max_w(stream_, arrival.start, arrival.end) : 0;
     }
     void book_loss(const Flight& flight, FrameFate fate, double interference_w,
                    std::span<const FrameObserver::Interferer> interferers);

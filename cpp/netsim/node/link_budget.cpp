@@ -137,8 +137,9 @@ std::vector<LinkBudget::SnrNeed> LinkBudget::snr_needs() const {
                                   receiver_.preamble_detection.empty() ? 0 : receiver_.preamble_threshold);
     std::vector<SnrNeed> all;
     double known = 0;
-    for (double snr_db = -far_db; snr_db <= far_db; snr_db += step_db) {
-        const double snr = ratio_from_db(snr_db);
+    const int steps = static_cast<int>(2 * far_db / step_db);
+    for (int step = 0; step <= steps; ++step) {
+        const double snr = ratio_from_db(step_db * step - far_db);
         const double success = snr > least ? error_model_->success_probability(*mode_, snr, psdu_bytes_) : 0;
         if (success - known > too_small) {
             all.push_back({snr / ratio_from_db(step_db / 2), success - known});
