@@ -12,6 +12,9 @@ const FRAMES_PER_S = 30;
 /** The browser gets the film in parts, as it can keep them on the disk. */
 const PART_MS = 1000;
 
+/** How often the last picture is drawn until the film has it. */
+const LAST_TRIES = 100;
+
 /** An element with canvases on top of each other, and what is written below. */
 export interface Stage {
   stage: HTMLElement;
@@ -47,7 +50,8 @@ export class Capture {
   /** Record from now on, or stop and save what was recorded. */
   async toggleFilm(): Promise<void> {
     if (this.recorder !== null) {
-      this.recorder.stop();
+      if (this.recorder.state === "recording") await this.recordLast(this.recorder);
+      if (this.recorder?.state === "recording") this.recorder.stop();
       return;
     }
     if (typeof MediaRecorder === "undefined" || !MediaRecorder.isTypeSupported(FILM)) {
@@ -71,6 +75,21 @@ export class Capture {
     this.compose(this.film);
     this.recorder.start(PART_MS);
     await this.draw();
+  }
+
+  /** Draw, and wait until the film has it: encoding takes time, more than a film may be long. */
+  private async recordLast(recorder: MediaRecorder): Promise<void> {
+    const nextPart = (): Promise<Blob> =>
+      new Promise((done) => {
+        recorder.addEventListener("dataavailable", ({ data }) => done(data), { once: true });
+        if (recorder.state === "recording") recorder.requestData();
+        else done(new Blob());
+      });
+    await nextPart();
+    for (let tries = 0; tries < LAST_TRIES; tries += 1) {
+      await this.draw();
+      if ((await nextPart()).size > 0) return;
+    }
   }
 
   /** Add what was drawn to the film, if one is recorded. Call it after each drawing: canvases lose it later. */
