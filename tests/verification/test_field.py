@@ -175,7 +175,7 @@ CURVES: Mapping[str, Sequence[str]] = {
 def above_6_mbps_db(loaded: Callable[..., Scenario], mbps: float, curves: str) -> float:
     """Return by how much a bitrate of 802.11b needs more than 6 Mbps of OFDM."""
     lines = ['**.wlan[*].opMode = "b"', "**.wlan[*].radio.bandwidth = 20MHz", *CURVES[curves]]
-    return snr_db(loaded, mbps, *lines) - snr_db(loaded, 6)
+    return snr_db(loaded, mbps, *lines) - snr_db(loaded, 6, *CURVES[curves])
 
 
 @pytest.mark.parametrize("curves", CURVES)

@@ -13,6 +13,7 @@ import gradysim.integrated.run
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.network_lint import lint_networks
 from gradysim.scenario import load_scenarios
+from gradysim.scenario.ini import PROFILES
 
 
 @pytest.fixture
@@ -64,3 +65,42 @@ def test_other_systems_make_the_step_of_delivery_as_wide_as_it_says(
     figures = re.search(r"takes (\d+) dB of received power, and (\d+) dB without", guide)
     assert figures is not None
     assert (round(width_db()), round(without)) == tuple(map(int, figures.groups()))
+
+
+MESSAGE_BYTES = 936
+"""In a frame of 1000 B."""
+NO_LIMIT = "**.receiver.snirThreshold = -200dB"
+CURVES = {
+    "here, without `snirThreshold`": (NO_LIMIT,),
+    "here": (),
+    "ns-3's curves": (
+        NO_LIMIT,
+        '**.errorModel.typename = "Ieee80211BerTableErrorModel"',
+        f'**.errorModel.berTableFile = "{PROFILES}/ns3_error_rates.csv"',
+    ),
+    "INET's curves": (NO_LIMIT, '**.errorModel.typename = "Ieee80211NistErrorModel"'),
+    "INET's curves and its `snirThreshold`": (
+        "**.receiver.snirThreshold = 4dB",
+        '**.errorModel.typename = "Ieee80211NistErrorModel"',
+    ),
+}
+
+
+@pytest.mark.parametrize("curves", CURVES)
+def test_half_of_the_frames_arrive_at_the_ratios_of_its_table(
+    guide: str, tmp_path: Path, curves: str
+) -> None:
+    (tmp_path / "pair.ini").write_text(
+        '[General]\nsim-time-limit = 1s\n*.numN = 2\n*.n[*].protocol.typename = "SinkProtocol"\n'
+        "**.wlan[*].radio.receiver.sensitivity = -140dBm\n"
+    )
+
+    def half_db(mode: str, mbps: float) -> float:
+        lines = (f'**.wlan[*].opMode = "{mode}"', f"**.wlan[*].bitrate = {mbps}Mbps", *CURVES[curves])
+        (scenario,) = load_scenarios(tmp_path / "pair.ini", overrides=lines)
+        found = calibrate(scenario, 10, ratio=0.5, message_bytes=MESSAGE_BYTES)
+        return 10 * math.log10(found.snr_at_range)
+
+    halves = [half_db("b", mbps) for mbps in (1, 2, 5.5, 11)] + [half_db("g(erp)", 6)]
+    (row,) = re.findall(rf"^\| {re.escape(curves)} \| (.*) \|$", guide, re.MULTILINE)
+    assert row == " | ".join(f"{half:.1f} dB" for half in halves)
