@@ -41,7 +41,7 @@ _DELIVERIES = {"0": 0.0, "no": 0.0, "1": 1.0, "yes": 1.0}
 _LIKELY = 3.841458820694124
 """95 % quantile of the chi-square distribution with one degree of freedom."""
 
-_FARTHEST_M, _WEAKEST_DBM, _STRONGEST_DBM = 1e9, -300.0, 100.0
+_NEAREST_M, _FARTHEST_M, _WEAKEST_DBM, _STRONGEST_DBM = 1e-9, 1e9, -300.0, 100.0
 """Bounds of what may have been measured."""
 
 _SHOWN = 40
@@ -141,9 +141,9 @@ def _text_in(file: Path) -> str:
 
 def _distance_m(file: Path, line: int, text: str | None) -> float:
     distance_m = _number(file, line, DISTANCE, text)
-    if not 0 < distance_m <= _FARTHEST_M:
+    if not _NEAREST_M <= distance_m <= _FARTHEST_M:
         raise ConfigError(
-            f"{file}:{line}: {DISTANCE} = {distance_m:g}", expected=f"more than 0, at most {_FARTHEST_M:g}"
+            f"{file}:{line}: {DISTANCE} = {distance_m:g}", expected=f"{_NEAREST_M:g} to {_FARTHEST_M:g}"
         )
     return distance_m
 
@@ -264,17 +264,22 @@ def _fit_deliveries(
     receiver: NodeSpec,
     message_bytes: int,
 ) -> FittedPathLoss:
-    arrived, lost = ([distance_m for distance_m, value in measured if value == each] for each in (1, 0))
+    arrived, lost = (
+        [_over_one_metre_db(distance_m) for distance_m, value in measured if value == each] for each in (1, 0)
+    )
     if not arrived or not lost:
         raise ConfigError(
             f"{'no' if lost else 'each'} frame arrived",
             expected="some frames that arrive and some that do not",
         )
     if max(arrived) <= min(lost):
+        last_m, first_m = (f"{10 ** (each / 10):.4g} m" for each in (max(arrived), min(lost)))
         raise ConfigError(
-            f"each frame up to {max(arrived):g} m arrived, and none beyond: the deviation is open",
-            expected=f"more frames from {max(arrived):g} m to {min(lost):g} m",
+            f"each frame up to {last_m} arrived, and none beyond: the deviation is open",
+            expected=f"more frames from {last_m} to {first_m}",
         )
+    if max(lost) <= min(arrived):
+        raise _not_falling()
     alpha = medium_config(scenario).alpha
     probit = _Probit(measured)
     best, height, slope = probit.best(lambda x: (1.0, -x))
@@ -287,10 +292,7 @@ def _fit_deliveries(
         return 2 * (best - probit.best(lambda x: (1.0, 0.0), lambda x: -slope * x)[0]) < _LIKELY
 
     if slope <= 0 or half_is_likely(-_ANYWHERE) or half_is_likely(_ANYWHERE):
-        raise ConfigError(
-            "the ratio of frames that arrived does not clearly fall with the distance",
-            expected="more frames, or frames at more distances",
-        )
+        raise _not_falling()
     steep = 2 * slope
     while slope_is_likely(steep):
         steep *= 2
@@ -315,14 +317,25 @@ def _fit_deliveries(
     )
 
 
+def _not_falling() -> ConfigError:
+    return ConfigError(
+        "the ratio of frames that arrived does not clearly fall with the distance",
+        expected="more frames, or frames at more distances",
+    )
+
+
+def _over_one_metre_db(distance_m: float) -> float:
+    """Round to 0.2 % of the distance, so that logs with thousands of lines are fitted in seconds."""
+    return round(10 * math.log10(distance_m), 2)
+
+
 class _Probit:
     """Log-likelihood of deliveries at distances x, in dB over one metre, for chances Φ(η(x))."""
 
     def __init__(self, measured: Sequence[tuple[float, float]]) -> None:
         counts: dict[tuple[float, float], int] = {}
         for distance_m, value in measured:
-            # Rounded to 0.2 % of the distance, so that logs with thousands of lines are fitted in seconds.
-            key = (round(10 * math.log10(distance_m), 2), 1.0 if value else -1.0)
+            key = (_over_one_metre_db(distance_m), 1.0 if value else -1.0)
             counts[key] = counts.get(key, 0) + 1
         self._counts = [(x, sign, count) for (x, sign), count in counts.items()]
 

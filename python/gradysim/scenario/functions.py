@@ -39,10 +39,12 @@ def unquoted(written: str) -> str:
     return _ESCAPED.sub(lambda match: _ESCAPES.get(match[1], match[1]), written[1:-1])
 
 
-def text_of(value: Value) -> str:
-    """Return a value as it is written in a file."""
+def text_of(value: Value | tuple[Any, ...]) -> str:
+    """Return a value, or a list of values, as it is written in a file."""
     if isinstance(value, bool):
         return "true" if value else "false"
+    if isinstance(value, tuple):
+        return f"[{', '.join(map(text_of, value))}]"
     return f'"{value}"' if isinstance(value, str) else str(value)
 
 

@@ -355,11 +355,13 @@ def _string_of(value: Value) -> str:
     return value
 
 
-def _description(value: Value) -> str:
+def _description(value: Value | tuple[Any, ...]) -> str:
     if isinstance(value, str):
         return "a text"
     if isinstance(value, bool):
         return "a truth value"
+    if isinstance(value, tuple):  # an element of a list
+        return "a list"
     return "a quantity" if value.unit else "a number"
 
 

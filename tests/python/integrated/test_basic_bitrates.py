@@ -64,7 +64,7 @@ def test_a_bitrate_of_another_operation_mode_is_refused(received: Callable[..., 
     assert error.value.key == "**.mac.basicBitrates"
 
 
-@pytest.mark.parametrize("value", ["2Mbps", "[2]", "[0Mbps]", "[2m]", '"2Mbps"'])
+@pytest.mark.parametrize("value", ["2Mbps", "[2]", "[[2Mbps]]", "[0Mbps]", "[2m]", '"2Mbps"'])
 def test_what_is_no_list_of_bitrates_is_refused(received: Callable[..., int], value: str) -> None:
     with pytest.raises(ConfigError) as error:
         received(f"**.mac.basicBitrates = {value}")

@@ -51,6 +51,7 @@ def test_a_range_does_not_set_the_power_of_a_bitrate_that_has_one() -> None:
         "[54Mbps, 20dBm]",
         "[[54Mbps]]",
         "[[54Mbps, 20dB]]",
+        "[[54Mbps, [20dBm]]]",
         "20dBm",
     ],
 )
@@ -58,3 +59,10 @@ def test_a_wrong_list_is_refused_at_its_line(value: str) -> None:
     with pytest.raises(ConfigError) as error:
         run(link(f"{KEY} = {value}"))
     assert error.value.key == KEY
+
+
+def test_a_list_that_is_not_a_pair_is_shown_as_written() -> None:
+    with pytest.raises(ConfigError) as error:
+        run(link(f"{KEY} = [[54Mbps, 20dBm, 1]]"))
+    assert error.value.problem is not None
+    assert "`[54Mbps, 20dBm, 1]`" in error.value.problem
