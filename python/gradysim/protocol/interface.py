@@ -152,9 +152,13 @@ class IProtocol(ABC):
         """
 
 
+FAILED_MESSAGE_CALLBACK = "handle_failed_message"
+"""A callback that protocols may leave out, also those that do not derive from `IProtocol`."""
+
+
 def handles_failed_messages(protocol: object) -> bool:
     """Return whether the class of a protocol defines `handle_failed_message` itself."""
-    method = getattr(type(protocol), "handle_failed_message", None)
+    method = getattr(type(protocol), FAILED_MESSAGE_CALLBACK, None)
     return method is not None and method is not IProtocol.handle_failed_message
 
 

@@ -15,7 +15,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import FunctionType, ModuleType
 
-from gradysim.protocol.interface import CALLBACKS, OPTIONAL_CALLBACKS, IProtocol, is_protocol_class
+from gradysim.protocol.interface import (
+    CALLBACKS,
+    FAILED_MESSAGE_CALLBACK,
+    OPTIONAL_CALLBACKS,
+    IProtocol,
+    is_protocol_class,
+)
 from gradysim.scenario.errors import BadValue, nearest, nearest_file
 from gradysim.scenario.native_protocols import is_native_name
 from gradysim.scenario.protocol_modules import BeingLoadedError, ModuleLoader, Origin, remember_origin
@@ -140,8 +146,8 @@ def _missing_callbacks(protocol: type[IProtocol]) -> list[str]:
     methods = [key for key in _own_names(protocol) if callable(getattr(protocol, key))]
     left_out = [
         callback
-        for callback in OPTIONAL_CALLBACKS
-        if inspect.getattr_static(protocol, callback) is vars(IProtocol)[callback]
+        for callback in (*OPTIONAL_CALLBACKS, FAILED_MESSAGE_CALLBACK)
+        if inspect.getattr_static(protocol, callback, None) is vars(IProtocol)[callback]
     ]
     # Names that are longer by more than a letter, such as `finished`, are those of other methods.
     misspelled = [
@@ -187,7 +193,10 @@ def _error_text(error: BaseException, folder: Path | None = None) -> str:
     return f"{text} ({innermost[0].filename}:{innermost[0].lineno})" if innermost else text
 
 
-_CALLBACKS = {name: tuple(inspect.signature(vars(IProtocol)[name]).parameters) for name in CALLBACKS}
+_CALLBACKS = {
+    name: tuple(inspect.signature(vars(IProtocol)[name]).parameters)
+    for name in (*CALLBACKS, FAILED_MESSAGE_CALLBACK)
+}
 """Arguments of the callbacks, with `self`. All are passed by position."""
 
 
@@ -202,7 +211,8 @@ def check_contract(protocol: type[IProtocol]) -> None:
     if vars(IProtocol)["instantiate"] is inspect.getattr_static(protocol, "instantiate"):
         _check_method(protocol, "__init__", ("self",))
     for name, arguments in _CALLBACKS.items():
-        _check_method(protocol, name, arguments)
+        if name != FAILED_MESSAGE_CALLBACK or hasattr(protocol, name):
+            _check_method(protocol, name, arguments)
 
 
 def _check_method(protocol: type[IProtocol], name: str, arguments: tuple[str, ...]) -> None:
@@ -224,7 +234,7 @@ def _check_method(protocol: type[IProtocol], name: str, arguments: tuple[str, ..
         if signature is not None:
             signature.bind(*given)
     except TypeError:
-        call = f"with `{arguments[1]}` alone" if arguments[1:] else "without arguments"
+        call = f"with `{', '.join(arguments[1:])}` alone" if arguments[1:] else "without arguments"
         raise BadValue(f"`{name}{signature}` {where} cannot be called {call}", expected=expected) from None
     if inspect.iscoroutinefunction(method) or inspect.isasyncgenfunction(method):
         raise BadValue(f"`{name}` {where} is asynchronous, and nothing would await it", expected=expected)

@@ -87,7 +87,12 @@ class Slips(IProtocol):
 
 
 @pytest.mark.parametrize(
-    ("slip", "callback"), [("handle_telemetri", "handle_telemetry"), ("finis", "finish")]
+    ("slip", "callback"),
+    [
+        ("handle_telemetri", "handle_telemetry"),
+        ("finis", "finish"),
+        ("handle_failed_mesage", "handle_failed_message"),
+    ],
 )
 def test_an_optional_callback_with_a_typing_error_is_named(
     folder: Any, error_of: Any, slip: str, callback: str
@@ -282,6 +287,13 @@ async def asynchronous_generator(self: Any, timer: str) -> Any:
         ("handle_timer", asynchronous_generator, "asynchronous", "(self, timer)"),
         ("handle_timer", generator, "generator", "(self, timer)"),
         ("handle_timer", None, "`handle_timer` of `Tested` is None", "(self, timer)"),
+        (
+            "handle_failed_message",
+            lambda self, message: None,
+            "with `message, destination, reason` alone",
+            "(self, message, destination, reason)",
+        ),
+        ("handle_failed_message", 5, "is 5", "(self, message, destination, reason)"),
     ],
 )
 def test_methods_that_cannot_be_called(name: str, function: object, problem: str, expected: str) -> None:
