@@ -13,7 +13,7 @@ from heapq import heappop, heappush
 from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
 from gradysim.integrated.native_protocols import is_native
-from gradysim.protocol.interface import CALLBACKS, IProtocol, IProvider
+from gradysim.protocol.interface import CALLBACKS, FAILED_MESSAGE_CALLBACK, IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.plain_value import as_float
@@ -34,7 +34,7 @@ _CONTAINERS = frozenset({list, tuple, dict, set, frozenset})
 _State: TypeAlias = tuple[dict[str, object], dict[str, object]]
 """Tracked variables, and attributes of the protocol."""
 
-_LOGGED: Final = tuple(name for name in CALLBACKS if name != "finish")
+_LOGGED: Final = (*(name for name in CALLBACKS if name != "finish"), FAILED_MESSAGE_CALLBACK)
 
 
 def without_numbers(text: str) -> str:
@@ -86,8 +86,8 @@ class Callback:
     Attributes:
         node: Id of the node.
         time_ns: Simulated time.
-        name: As replays have it: `initialize`, `timer NAME`, `packet` or `telemetry`.
-        argument: The start of the message of a packet; otherwise "".
+        name: As replays have it: `initialize`, `timer NAME`, `packet`, `telemetry` or `failed_message`.
+        argument: The start of a message that arrived or failed; otherwise "".
         position: The position (m) that telemetry reports; None for other calls.
         number: How many calls of this name the node had before.
         effects: What it did, in order.
@@ -177,7 +177,7 @@ class _NodeLog:
             callback.name = f"timer {arguments[0]}"
             pending = self._pending[arguments[0]]
             callback.cause = heappop(pending)[2] if pending else None
-        elif name == "packet":
+        elif name in ("packet", "failed_message"):
             callback.argument = self._log.text(arguments[0])
         elif name == "telemetry":
             callback.position = arguments[0].current_position
@@ -247,7 +247,7 @@ def _watched(protocol: type[IProtocol], called: Callable[..., Any]) -> type[IPro
     The callbacks are data descriptors, so that they come before what plugins assign to the instance.
     """
     subclass: type[IProtocol] = type(protocol.__name__, (protocol,), {"__module__": protocol.__module__})
-    for name in _LOGGED:
+    for name in filter(partial(hasattr, protocol), _LOGGED):
         setattr(subclass, name, _Watched(protocol, name, called))
     return subclass
 

@@ -101,6 +101,22 @@ def test_telemetry_without_effects_is_left_out(log_of: Callable[[str], CallbackL
     assert (seen.time_ns, seen.number) == (1_500_000_000, 2)
 
 
+def test_a_failed_message_is_a_callback(log_of: Callable[[str], CallbackLog]) -> None:
+    log = log_of("""
+    def initialize(self):
+        self.provider.schedule_timer("send", 1.0)
+    def handle_timer(self, timer):
+        from gradysim.protocol.messages.communication import BroadcastMessageCommand
+        for number in range(102):
+            self.provider.send_communication_command(BroadcastMessageCommand(str(number)))
+    def handle_failed_message(self, message, destination, reason):
+        self.provider.tracked_variables["failed"] = message
+""")
+    failed = of_name(log, "failed_message")
+    assert [each.argument for each in failed] == ["100", "101"]
+    assert [each.effects for each in failed] == [[Effect("set", "failed", each)] for each in ("100", "101")]
+
+
 def test_what_a_plugin_does_counts_once(log_of: Callable[[str], CallbackLog]) -> None:
     """The dispatcher replaces the method of the instance, and here the protocol's own is not called."""
     log = log_of("""
