@@ -185,7 +185,8 @@ def fit_path_loss(
     scenario. Raises ConfigError if the scenario has no powers, or if the measured values do not fall with the
     distance.
     """
-    link_budget(scenario, sender, receiver, message_bytes)  # it has powers, and they are valid
+    if link_budget(scenario, sender, receiver, message_bytes).tx_power_w == 0:
+        raise ConfigError("the sender has a transmit power of 0 W", expected="the power of the measurements")
     if measured.column == DELIVERY:
         return _fit_deliveries(scenario, measured.lines, sender, receiver, message_bytes)
     return _fit_powers(scenario, measured.lines, sender, receiver)

@@ -143,6 +143,15 @@ def test_deliveries_that_leave_something_open_are_refused(
     assert error.value.expected == expected
 
 
+@pytest.mark.parametrize("column", [POWER, DELIVERY])
+def test_a_sender_without_power_is_refused(make_scenario: Callable[..., Scenario], column: str) -> None:
+    silent = make_scenario("class Tested(Quiet): pass", "**.transmitter.power = 0W")
+    lines = [(1.0, 1.0), (2.0, 0.0), (3.0, 1.0), (4.0, 0.0)]
+    with pytest.raises(ConfigError) as error:
+        fit_path_loss(silent, Measurements(column, lines), *pair_of(silent, None, None))
+    assert error.value.expected == "the power of the measurements"
+
+
 @pytest.mark.parametrize("ratio", [1e-3, 0.5, 1e3])
 def test_fits_of_deliveries_scale_with_the_distance(
     make_scenario: Callable[..., Scenario], ratio: float
