@@ -20,9 +20,9 @@ from gradysim import installation
 if TYPE_CHECKING:
     import os
 
+    from gradysim.execution.scenario_run import ScenarioRun
     from gradysim.results import Runs
     from gradysim.results.result import Mode, RunResult
-    from gradysim.results.scenario_run import ScenarioRun
     from gradysim.scenario import Scenario
     from gradysim.scenario.load import Study
 

@@ -2,8 +2,8 @@
 
 from typing import Any, get_args
 
+from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.results.result import Mode
-from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.scenario import Scenario
 
 

@@ -36,6 +36,7 @@ CONTENTS = {
     "prototype": "runs in Python",
     "integrated": "runs in C++",
     "plots": "figures",
+    "execution": "runs in chunks, locks",
     "sitl": "autopilots and MAVLink",
     "results": "fields, files, tables of a run",
     "replay": "records of a run, traces, live views",

@@ -28,9 +28,9 @@ def pack_results(
 ) -> int:
     """Put the JSON files of a directory into one SQLite file, which other commands read in their place."""
     from gradysim.cli.progress import waiting
-    from gradysim.results import packing
+    from gradysim.execution import packing
+    from gradysim.execution.run_lock import RunLockedError
     from gradysim.results.pack import packs_of
-    from gradysim.results.run_lock import RunLockedError
     from gradysim.scenario.errors import ConfigError
 
     file = output or packing.default_pack(directory)

@@ -78,8 +78,8 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
             they need the same directories and packages. By default each run has a process of this machine.
     """
     from gradysim.cli.executors import Workers, check_executor, workers_of
+    from gradysim.execution.run_lock import remove_left_over_files
     from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.results.run_lock import remove_left_over_files
     from gradysim.scenario.errors import ConfigError
 
     begin_s = time.monotonic()
@@ -185,7 +185,7 @@ def _execute(
     from gradysim.cli.interrupt import StopOnInterrupt
     from gradysim.cli.run_task import LineStart, RunTask, import_what_runs_use
     from gradysim.cli.runner import ForkExecutor
-    from gradysim.results.run_lock import remove_left_over_files, remove_lock_file
+    from gradysim.execution.run_lock import remove_left_over_files, remove_lock_file
 
     study, left, _, build = prepared
     has_lines = len(study) > 1 and not options.details

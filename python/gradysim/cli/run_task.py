@@ -78,8 +78,8 @@ class RunTask:
         """Execute the run at a position of the study, write its files, and print its results."""
         from gradysim.cli.execution import execute, report
         from gradysim.cli.runner import keep_from_forks
+        from gradysim.execution.run_lock import RunLockedError
         from gradysim.integrated.compiled_part import CompiledPartMissingError
-        from gradysim.results.run_lock import RunLockedError
         from gradysim.scenario.errors import ConfigError
 
         gc.enable()
@@ -125,8 +125,8 @@ class RunTask:
 
     def _lock(self, number: int) -> AbstractContextManager[None]:
         """Return the lock of a run, if it writes files. Its `with` statement raises RunLockedError."""
+        from gradysim.execution.run_lock import run_locked
         from gradysim.results.files import run_file
-        from gradysim.results.run_lock import run_locked
 
         options = self.options
         if not options.is_writer:

@@ -15,6 +15,8 @@ from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
+from gradysim.execution.run_log import RecordEvent
+from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.integrated.autopilot_nodes import AutopilotNodes
 from gradysim.integrated.capture import capture_errors, checked_captures, start_captures
 from gradysim.integrated.compiled_part import load_netsim
@@ -34,8 +36,6 @@ from gradysim.results.files import run_name
 from gradysim.results.outcomes import Counts
 from gradysim.results.recorder import checked_ids
 from gradysim.results.result import RunResult
-from gradysim.results.run_log import RecordEvent
-from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.ranges import mean_range_m
 from gradysim.scenario.scenario import Scenario

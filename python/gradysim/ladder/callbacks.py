@@ -12,6 +12,7 @@ from functools import partial
 from heapq import heappop, heappush
 from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
+from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.integrated.native_protocols import is_native
 from gradysim.protocol.interface import CALLBACKS, FAILED_MESSAGE_CALLBACK, IProtocol, IProvider
 from gradysim.protocol.messages.communication import CommunicationCommand, CommunicationCommandType
@@ -19,7 +20,6 @@ from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.plain_value import as_float
 from gradysim.protocol.position import Position
 from gradysim.replay.tables import BROADCAST
-from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.scenario import Scenario
 
 Action = Literal["send", "timer", "cancel", "move", "set", "attribute", "raise"]

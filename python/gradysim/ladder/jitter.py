@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
 
+from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.ladder.callbacks import without_numbers
-from gradysim.results.scenario_run import ScenarioRun
 from gradysim.results.tracked_variables import group_of
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario

@@ -8,6 +8,8 @@ import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
+from gradysim.execution.run_log import RecordEvent
+from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.prototype.replay import PrototypeRecorder
 from gradysim.prototype.simulation import build_simulation
 from gradysim.replay.chunk import RawChunk
@@ -15,8 +17,6 @@ from gradysim.replay.description import describe, recorded_nodes
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.delays import constant_delays
 from gradysim.results.result import RunResult
-from gradysim.results.run_log import RecordEvent
-from gradysim.results.scenario_run import ScenarioRun
 from gradysim.scenario.ranges import mean_range_m, ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
 from gradysim.simulator.handler.interface import INodeHandler

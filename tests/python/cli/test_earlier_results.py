@@ -15,8 +15,8 @@ import pytest
 from gradysim.cli.earlier_results import runs_to_do
 from gradysim.cli.options import RunOptions
 from gradysim.cli.runs import check
+from gradysim.execution.run_lock import LOCK_FILE
 from gradysim.results.durable import finished_name
-from gradysim.results.run_lock import LOCK_FILE
 from python.cli.command import both_modes, compiled, environment, objects
 
 RUN = ("run", "test.ini", "--mode", "prototype", "--quiet")

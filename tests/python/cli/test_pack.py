@@ -110,7 +110,7 @@ def test_a_file_that_is_not_a_pack_is_an_error(gradysim):
 
 COMPUTES = """
 from pathlib import Path
-from gradysim.results.run_lock import run_locked
+from gradysim.execution.run_lock import run_locked
 with run_locked(Path("out"), "General-#0"):
     print("begun", flush=True)
     input()

@@ -18,8 +18,8 @@ from pathlib import Path
 import pytest
 
 from gradysim.cli.interrupt import STOPPING
+from gradysim.execution.run_lock import all_runs_locked
 from gradysim.replay.file import read_parts
-from gradysim.results.run_lock import all_runs_locked
 from python.cli.command import both_modes, compiled, environment, objects
 from python.processes import session, wait_until
 from python.thorough import some

@@ -55,7 +55,7 @@ def test_result_of_a_whole_run(result_of, mode):
 def test_the_cost_counts_from_building_to_the_end(result_of, monkeypatch):
     for clock, begin, end in (("perf_counter", 10.0, 12.5), ("process_time", 3.0, 4.0)):
         times = chain([begin], repeat(end))
-        monkeypatch.setattr(f"gradysim.results.scenario_run.{clock}", times.__next__)
+        monkeypatch.setattr(f"gradysim.execution.scenario_run.{clock}", times.__next__)
     result = result_of()
     assert (result.wall_s, result.cpu_s, result.setup_s) == (2.5, 1.0, 2.5)
 

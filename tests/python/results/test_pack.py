@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from gradysim.execution.packing import pack
 from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp_reader import read_scalars
 from gradysim.results.pack import (
@@ -20,7 +21,6 @@ from gradysim.results.pack import (
     packs_of,
     unpacked,
 )
-from gradysim.results.packing import pack
 from gradysim.results.run_summary import RunSummary
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gradysim.results.packing import default_pack, pack
+from gradysim.execution.packing import default_pack, pack
 from gradysim.results.verify import verify
 from python.cli.command import call_gradysim, compiled
 from python.damage import damaged

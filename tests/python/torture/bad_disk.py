@@ -46,7 +46,7 @@ _COUNTS = struct.Struct("@LLL")
 _IMPORTED = (
     *("gradysim._netsim", "gradysim.integrated.run", "gradysim.integrated.network_lint", "sqlite3"),
     *("gradysim.cli.app", "gradysim.cli.group_executor", "gradysim.cli.run_all", "gradysim.cli.progress"),
-    *("gradysim.results.packing", "gradysim.plots", "gradysim.cli.plot", "matplotlib.font_manager"),
+    *("gradysim.execution.packing", "gradysim.plots", "gradysim.cli.plot", "matplotlib.font_manager"),
     "matplotlib.backends.backend_svg",
 )
 

@@ -10,9 +10,9 @@ from random import Random
 import pytest
 
 from gradysim.cli.errors import MISTAKE
+from gradysim.execution.packing import pack, unpack
 from gradysim.results.files import bytes_of
 from gradysim.results.omnetpp_reader import read_scalars
-from gradysim.results.packing import pack, unpack
 from gradysim.results.result_dir import read_results, result_names
 from python.cli.command import call_gradysim
 from python.damage import damaged

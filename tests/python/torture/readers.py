@@ -19,12 +19,12 @@ from typing import Any
 import pytest
 
 from gradysim.cli.errors import OK
+from gradysim.execution.packing import unpack as unpack_results
 from gradysim.omnetpp_import import translate
 from gradysim.replay.chunk import unpack
 from gradysim.replay.file import read_parts
 from gradysim.replay.reader import read_replay
 from gradysim.results.file_checksum import LINE_BYTES, append_checksum
-from gradysim.results.packing import unpack as unpack_results
 from gradysim.results.result_dir import read_results
 from gradysim.results.verify import verify
 from gradysim.scenario import load_scenarios

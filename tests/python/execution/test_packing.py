@@ -10,13 +10,13 @@ from typing import Any
 
 import pytest
 
+from gradysim.execution.packing import default_pack, pack, unpack
+from gradysim.execution.run_lock import LOCK_FILE, RunLockedError, run_locked
 from gradysim.results.durable import unfinished_file
 from gradysim.results.files import read_run_file
 from gradysim.results.means import read_means
 from gradysim.results.pack import packed_files, packed_texts
-from gradysim.results.packing import default_pack, pack, unpack
 from gradysim.results.result_dir import read_results, result_names
-from gradysim.results.run_lock import LOCK_FILE, RunLockedError, run_locked
 from gradysim.scenario.errors import ConfigError
 
 
@@ -231,7 +231,7 @@ def test_another_file_is_not_replaced(tmp_path: Path) -> None:
 COMPUTES = """
 import sys, time
 from pathlib import Path
-from gradysim.results.run_lock import run_locked
+from gradysim.execution.run_lock import run_locked
 with run_locked(Path(sys.argv[1]), "Study-#1"):
     print("begun", flush=True)
     time.sleep(1000)
@@ -262,7 +262,7 @@ def test_a_directory_with_a_run_in_progress_is_not_packed(tmp_path: Path) -> Non
 DIES = """
 import os, signal, sys
 from pathlib import Path
-from gradysim.results import packing
+from gradysim.execution import packing
 from gradysim.results.durable import finish
 packing.{function} = lambda *_: os.kill(os.getpid(), signal.SIGKILL)
 packing.pack(Path(sys.argv[1]), packing.default_pack(Path(sys.argv[1])), remove=True)

@@ -2,8 +2,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gradysim.results import scenario_run
-from gradysim.results.scenario_run import CHUNK_S, MAX_EVENTS, next_chunk, run_in_chunks
+from gradysim.execution import scenario_run
+from gradysim.execution.scenario_run import CHUNK_S, MAX_EVENTS, next_chunk, run_in_chunks
 
 
 class Clock:

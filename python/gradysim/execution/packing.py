@@ -11,6 +11,7 @@ from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gradysim.execution.run_lock import all_runs_locked, remove_left_over_files
 from gradysim.results.durable import bytes_in, check_replaceable, replacing, replacing_all
 from gradysim.results.file_checksum import append_checksum, remove_checksum
 from gradysim.results.omnetpp import TABLES as OMNETPP_TABLES
@@ -29,7 +30,6 @@ from gradysim.results.pack import (
     stored_name,
 )
 from gradysim.results.result_dir import loose_files, result_of
-from gradysim.results.run_lock import all_runs_locked, remove_left_over_files
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.sweep import text_of_iterations
 

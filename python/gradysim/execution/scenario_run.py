@@ -13,11 +13,11 @@ from time import perf_counter, process_time
 from typing import Any, ClassVar, Self
 
 from gradysim.encapsulator.run_context import GlobalRandom, gc_paused
+from gradysim.execution.run_log import RecordEvent, RunLog
 from gradysim.replay.chunk import RawChunk
 from gradysim.replay.sink import OutputError, ReplaySink
 from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
-from gradysim.results.run_log import RecordEvent, RunLog
 from gradysim.scenario.errors import did_you_mean
 from gradysim.scenario.lint import Finding, RunLint
 from gradysim.scenario.protocol_modules import siblings_importable

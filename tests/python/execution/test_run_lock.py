@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.results import run_lock
-from gradysim.results.run_lock import (
+from gradysim.execution import run_lock
+from gradysim.execution.run_lock import (
     LEASE_S,
     LOCK_FILE,
     RunLockedError,
@@ -26,7 +26,7 @@ from python.processes import wait_until
 HOLDS = """
 import sys, time
 from pathlib import Path
-from gradysim.results.run_lock import run_locked
+from gradysim.execution.run_lock import run_locked
 with run_locked(Path(sys.argv[1]), sys.argv[2]):
     print("held", flush=True)
     time.sleep(1000)
@@ -199,7 +199,7 @@ def test_another_error_of_a_lock_names_the_file(tmp_path, monkeypatch):
 RACES = """
 import sys
 from pathlib import Path
-from gradysim.results.run_lock import RunLockedError, remove_left_over_files, run_locked
+from gradysim.execution.run_lock import RunLockedError, remove_left_over_files, run_locked
 directory, name = Path(sys.argv[1]), sys.argv[2]
 for _ in range(300):
     with run_locked(directory, name):
