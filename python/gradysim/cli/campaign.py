@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gradysim.cli.options import CampaignOptions
+from gradysim.cli.study import drawn_text
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -83,5 +84,4 @@ def save(
     from gradysim.plots import save_numbers
 
     origin = {"file": str(file), "config": options.config, "settings": options.settings, "seed": options.seed}
-    figure, table, provenance = save_numbers(path, numbers, origin, log=log)
-    print(f"drawn in {figure}; numbers in {table}, origin in {provenance}", file=sys.stderr)
+    print(drawn_text(save_numbers(path, numbers, origin, log=log)), file=sys.stderr)

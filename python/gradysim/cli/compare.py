@@ -1,17 +1,16 @@
 """`gradysim compare`: what changes between two sets of runs, by pairs of the same seed."""
 
-import csv
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TextIO
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import CompareOptions, ResultsArgument
-from gradysim.cli.study import check_quantities, conditions, read_study, warn_of_mixed_runs
+from gradysim.cli.study import check_quantities, conditions, drawn_text, read_study, warn_of_mixed_runs
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -25,8 +24,8 @@ _ROUNDING = 1e-12
 
 DEFAULTS = CompareOptions()
 
-_BEFORE = ("quantity", "pairs")
-_AFTER = tuple(f"{name}{end}" for name in ("first", "second", "difference") for end in ("", "_low", "_high"))
+_ESTIMATES = ("first", "second", "difference")
+_COLUMNS = ("quantity", "pairs", *(f"{name}{end}" for name in _ESTIMATES for end in ("", "_low", "_high")))
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,7 @@ def compare(
     options: CompareOptions = DEFAULTS,
 ) -> int:
     """Compare two studies, or two modes or configurations of one, by pairs of runs with the same seed."""
-    from gradysim.cli.console import console
+    from gradysim.cli.console import console, write_csv
     from gradysim.results.compare import pair_runs
     from gradysim.scenario.errors import ConfigError
 
@@ -83,7 +82,7 @@ def compare(
                 file=sys.stderr,
             )
     if options.as_csv:
-        write_csv([*changes, *losses], sys.stdout)
+        write_csv(sys.stdout, (), _COLUMNS, [_row(change) for change in [*changes, *losses]])
         return OK
     names = before.name, after.name
     console().print(changes_table(changes, names))
@@ -93,8 +92,7 @@ def compare(
     if any(change.difference and change.difference.excludes_zero for change in [*changes, *losses]):
         print("\n* the interval of the difference excludes 0")
     if options.output is not None:
-        figure, numbers, origin = files
-        print(f"drawn in {figure}; numbers in {numbers}, origin in {origin}")
+        print(drawn_text(files))
     return OK
 
 
@@ -117,7 +115,7 @@ def warn_of_ranges(pairs: "Pairs") -> None:
 
 def _sides(first: Path, second: Path | None, options: CompareOptions) -> tuple[Side, Side]:
     """Return the two sets of runs. Raises ConfigError and OSError."""
-    from gradysim.scenario.errors import ConfigError, nearest
+    from gradysim.scenario.errors import ConfigError, unknown_name
 
     where = conditions(options.where)
     if second is not None:
@@ -144,11 +142,8 @@ def _sides(first: Path, second: Path | None, options: CompareOptions) -> tuple[S
     names = list(map(str, values))
     if options.baseline is not None:
         if options.baseline not in names:
-            raise ConfigError(
-                f"--baseline {options.baseline}: no run has {options.by} = {options.baseline}",
-                expected=f"one of {', '.join(names)}",
-                suggestion=nearest(options.baseline, names),
-            )
+            problem = f"--baseline {options.baseline}: no run has {options.by} = {options.baseline}"
+            raise unknown_name(problem, options.baseline, names)
         if options.baseline == names[1]:
             values.reverse()
     before, after = (Side(str(value), first, runs.where(**{options.by: value})) for value in values)
@@ -160,20 +155,17 @@ def changes_table(changes: "Sequence[Change]", names: tuple[str, str], what: str
 
     Names and values come from files: `Text` does not parse their brackets as markup.
     """
-    from rich import box
-    from rich.table import Table
     from rich.text import Text
 
+    from gradysim.cli.console import number_column, report_table, text_column
     from gradysim.results.compare import varying_values
 
     varying = varying_values(changes)
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title_justify="left")
-    if title := ", ".join(filter(None, [_title(changes, varying), what])):
-        table.title = Text(title, style="table.title")
-    for heading in [*(f"${name}" for name in varying), "quantity"]:
-        table.add_column(Text(heading))
-    for heading in (*names, "difference", "± (95 %)", "pairs"):
-        table.add_column(Text(heading), justify="right", no_wrap=True)
+    table = report_table(
+        *map(text_column, [*(f"${name}" for name in varying), "quantity"]),
+        *map(number_column, (*names, "difference", "± (95 %)", "pairs")),
+        title=", ".join(filter(None, [*_common_values(changes, varying), what])),
+    )
     for change in changes:
         cells = [str(change.values.get(name, "")) for name in varying]
         cells += [change.quantity, _number(change.first, ".4g"), _number(change.second, ".4g")]
@@ -182,14 +174,12 @@ def changes_table(changes: "Sequence[Change]", names: tuple[str, str], what: str
     return table
 
 
-def _title(changes: "Sequence[Change]", varying: Sequence[str]) -> str:
-    values = changes[0].values if changes else {}
+def _common_values(changes: "Sequence[Change]", varying: Sequence[str]) -> list[str]:
     shown = {"config": "{}", "mode": "{} mode"}
-    return ", ".join(
-        shown.get(name, f"{name} = {{}}").format(value)
-        for name, value in values.items()
-        if name not in varying
+    common = (
+        {name: value for name, value in changes[0].values.items() if name not in varying} if changes else {}
     )
+    return [shown.get(name, f"{name} = {{}}").format(value) for name, value in common.items()]
 
 
 def _number(estimate: "Estimate | None", digits: str) -> str:
@@ -215,21 +205,11 @@ def _interval(estimate: "Estimate | None") -> str:
     return f"{text} {'*' if estimate.excludes_zero else ' '}"
 
 
-def write_csv(changes: "Sequence[Change]", output: TextIO) -> None:
-    """Write a header and a line for each change, with all digits."""
-    writer = csv.writer(output, lineterminator="\n")
-    variables = list(dict.fromkeys(name for change in changes for name in change.values))
-    taken = {*_BEFORE, *_AFTER}
-    headings = [f"${name}" if name in taken else name for name in variables]
-    writer.writerow([*headings, *_BEFORE, *_AFTER])
-    writer.writerows(_rows(changes, variables))
-
-
-def _rows(changes: "Sequence[Change]", variables: Sequence[str]) -> Iterator[list[object]]:
-    for change in changes:
-        numbers: list[object] = []
-        for estimate in (change.first, change.second, change.difference):
-            numbers += [None] * 3 if estimate is None else [estimate.mean, estimate.low, estimate.high]
-        values = [change.values.get(name, "") for name in variables]
-        cells = ["" if number is None else number for number in numbers]
-        yield [*values, change.quantity, change.pairs, *cells]
+def _row(change: "Change") -> tuple[Mapping[str, object], Mapping[str, object]]:
+    """Return the values of a change and its other cells, for CSV."""
+    cells: dict[str, object] = {"quantity": change.quantity, "pairs": change.pairs}
+    for name in _ESTIMATES:
+        estimate: Estimate | None = getattr(change, name)
+        numbers = (None, None, None) if estimate is None else (estimate.mean, estimate.low, estimate.high)
+        cells |= zip((name, f"{name}_low", f"{name}_high"), numbers, strict=True)
+    return change.values, cells

@@ -1,11 +1,17 @@
-"""Console for reports, and how they print intervals."""
+"""Console for reports, and how they print tables, CSV and intervals."""
 
+import csv
 import math
 import os
 import sys
+from collections.abc import Mapping, Sequence
+from itertools import chain
 from typing import TextIO
 
+from rich import box
 from rich.console import Console
+from rich.table import Column, Table
+from rich.text import Text
 
 _NO_BOUND = 10_000
 """Width in columns. Tables are as wide as they need to be."""
@@ -43,3 +49,45 @@ def interval_text(
     if math.isclose(mean - low, high - mean, rel_tol=0.005, abs_tol=1e-9 * abs(mean)):
         return f"{plus_minus}{high / 2 - low / 2:{digits}}"
     return f"[{low:{digits}}, {high:{digits}}]"
+
+
+def report_table(*columns: Column, title: str = "") -> Table:
+    """Return an empty table. A title comes from files: `Text` does not parse its brackets as markup."""
+    return Table(
+        *columns,
+        title=Text(title, style="table.title") if title else None,
+        title_justify="left",
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        pad_edge=False,
+    )
+
+
+def text_column(heading: str) -> Column:
+    """Return a column of texts, which fold if the terminal is narrow."""
+    return Column(Text(heading), overflow="fold")
+
+
+def number_column(heading: str) -> Column:
+    """Return a column of numbers, each on one line."""
+    return Column(Text(heading), justify="right", no_wrap=True)
+
+
+def write_csv(
+    output: TextIO,
+    before: Sequence[str],
+    after: Sequence[str],
+    rows: Sequence[tuple[Mapping[str, object], Mapping[str, object]]],
+) -> None:
+    """Write a header and a line for each row, with all digits.
+
+    A row is a pair of its values of variables and of its other cells. Columns of variables stand between the
+    columns `before` and `after`. One with the name of another column, such as `mode`, is called `$mode`.
+    """
+    writer = csv.writer(output, lineterminator="\n")
+    variables = list(dict.fromkeys(name for values, _ in rows for name in values))
+    headings = [f"${name}" if name in (*before, *after) else name for name in variables]
+    writer.writerow([*before, *headings, *after])
+    for values, cells in rows:
+        known = [cells[name] for name in before], map(values.get, variables), [cells[name] for name in after]
+        writer.writerow(chain(*known))

@@ -60,12 +60,9 @@ def desynchronize_timers(
 
 def curve_table(found: "Desync", metric: str | None) -> "Table":
     """Return a row for each jitter. An arrow marks the recommended one."""
-    from rich import box
-    from rich.table import Table
-
+    from gradysim.cli.console import number_column, report_table
     from gradysim.ladder.desync_words import text_of_time
 
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
     has_failures = any(trial.failures for trial in found.trials)
     headings = [
         "jitter",
@@ -73,8 +70,7 @@ def curve_table(found: "Desync", metric: str | None) -> "Table":
         *(["failed runs"] if has_failures else []),
         *([metric] if metric else []),
     ]
-    for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
+    table = report_table(*map(number_column, headings))
     for trial in found.trials:
         is_chosen = trial.jitter_s == found.jitter_s
         cells = [text_of_time(trial.jitter_s), f"{trial.delivery:.1%}"]

@@ -121,19 +121,19 @@ def _number_of(text: str, names: list[str]) -> int:
 
 def ladder_table(rungs: "list[Rung]", title: str) -> "Table":
     """Return a row for each level. An arrow marks the largest drop."""
-    from rich import box
-    from rich.table import Table
+    from rich.table import Column
     from rich.text import Text
 
+    from gradysim.cli.console import number_column, report_table, text_column
     from gradysim.ladder.ladder import largest_drop
 
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title_justify="left")
-    table.title = Text(title, style="table.title")
-    table.add_column("level", no_wrap=True)
-    table.add_column("adds", overflow="fold")
-    for heading in ("mean ± 95 %", "change ± 95 %"):
-        table.add_column(heading, justify="right", no_wrap=True)
-    table.add_column("most frequent loss", overflow="fold")
+    table = report_table(
+        Column("level", no_wrap=True),
+        text_column("adds"),
+        *map(number_column, ("mean ± 95 %", "change ± 95 %")),
+        text_column("most frequent loss"),
+        title=title,
+    )
     worst = largest_drop(rungs)
     for rung in rungs:
         loss = f"{rung.loss.replace('_', ' ')} {rung.loss_ratio:.1%}" if rung.loss else ""

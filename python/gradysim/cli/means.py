@@ -1,8 +1,7 @@
 """`gradysim means`: means over the runs in a directory, as a table or as CSV."""
 
-import csv
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, TextIO
 
 from cyclopts import Parameter
@@ -50,7 +49,7 @@ def print_means(
         return say_mistake(mistake)
     warn_of_mixed_runs(directory, results)
     if as_csv:
-        write_csv(found, sys.stdout)
+        write_means(found, sys.stdout)
     else:
         console().print(means_table(found))
     return OK
@@ -61,56 +60,32 @@ def means_table(means: "Sequence[Mean]") -> "Table":
 
     Names and values come from files: `Text` does not parse their brackets as markup.
     """
-    from rich import box
-    from rich.table import Table
     from rich.text import Text
 
-    from gradysim.cli.console import interval_text
+    from gradysim.cli.console import interval_text, number_column, report_table, text_column
 
-    config, mode = {mean.config for mean in means}, {mean.mode for mean in means}
-    title = [*(config if len(config) == 1 else ()), *(f"{m} mode" for m in mode if len(mode) == 1)]
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, title_justify="left")
-    if title:
-        table.title = Text(", ".join(title), style="table.title")
-    variables = _variables(means)
-    headings = [*(["config"] if len(config) > 1 else []), *(["mode"] if len(mode) > 1 else [])]
-    for heading in [*headings, *(f"${name}" for name in variables), "quantity"]:
-        table.add_column(Text(heading), overflow="fold")
-    for heading in ("runs", "mean", "± (95 %)"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    shared = {"config": "{}", "mode": "{} mode"}
+    varying = [name for name in shared if len({getattr(mean, name) for mean in means}) > 1]
+    title = [text.format(getattr(means[0], name)) for name, text in shared.items() if name not in varying]
+    variables = list(dict.fromkeys(name for mean in means for name in mean.iterations))
     some_left_out = any(mean.left_out for mean in means)
-    if some_left_out:
-        table.add_column("left out", overflow="fold")
+    table = report_table(
+        *map(text_column, [*varying, *(f"${name}" for name in variables), "quantity"]),
+        *map(number_column, ("runs", "mean", "± (95 %)")),
+        *([text_column("left out")] if some_left_out else []),
+        title=", ".join(title),
+    )
     for mean in means:
-        cells = [mean.config] if len(config) > 1 else []
-        cells += [mean.mode] if len(mode) > 1 else []
+        cells = [getattr(mean, name) for name in varying]
         cells += [str(mean.iterations.get(name, "")) for name in variables]
-        cells += [mean.quantity, str(mean.runs)]
-        cells += ["" if mean.mean is None else f"{mean.mean:.6g}"]
+        cells += [mean.quantity, str(mean.runs), "" if mean.mean is None else f"{mean.mean:.6g}"]
         cells += [interval_text(mean.mean, mean.low, mean.high, ".3g")]
         table.add_row(*map(Text, [*cells, *([mean.left_out] if some_left_out else [])]))
     return table
 
 
-def write_csv(means: "Sequence[Mean]", output: TextIO) -> None:
-    """Write a header and a line for each mean, with all digits.
+def write_means(means: "Sequence[Mean]", output: TextIO) -> None:
+    """Write CSV with a line for each mean."""
+    from gradysim.cli.console import write_csv
 
-    A variable with the name of another column, such as `mode`, gets the column `$mode`.
-    """
-    writer = csv.writer(output, lineterminator="\n")
-    variables = _variables(means)
-    taken = {*_BEFORE, *_AFTER}
-    headings = [f"${name}" if name in taken else name for name in variables]
-    writer.writerow([*_BEFORE, *headings, *_AFTER])
-    writer.writerows(_rows(means, variables))
-
-
-def _rows(means: "Sequence[Mean]", variables: Sequence[str]) -> Iterator[list[object]]:
-    for mean in means:
-        values = [mean.iterations.get(name, "") for name in variables]
-        numbers = ["" if number is None else number for number in (mean.mean, mean.low, mean.high)]
-        yield [mean.config, mean.mode, *values, mean.quantity, mean.runs, *numbers, mean.left_out]
-
-
-def _variables(means: "Sequence[Mean]") -> list[str]:
-    return list(dict.fromkeys(name for mean in means for name in mean.iterations))
+    write_csv(output, _BEFORE, _AFTER, [(mean.iterations, vars(mean)) for mean in means])

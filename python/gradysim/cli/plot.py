@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import PlotOptions, ResultsArgument
-from gradysim.cli.study import conditions, read_study, warn_of_mixed_runs
+from gradysim.cli.study import conditions, drawn_text, read_study, warn_of_mixed_runs
 
 if TYPE_CHECKING:
     from gradysim.results.run_table import Runs
@@ -35,14 +35,14 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
     except (ConfigError, ImportError, OSError, ValueError) as mistake:
         return say_mistake(mistake)
     warn_of_mixed_runs(directory, runs)
-    figure, numbers, origin = files
-    print(f"drawn in {figure}; numbers in {numbers}, origin in {origin}")
+    print(drawn_text(files))
     return OK
 
 
 def _with_variable(directory: Path, runs: "Runs", variable: str | None) -> "Runs":
     """Return the runs that have the variable of the x axis, and print the number of others."""
-    from gradysim.results.run_table import Runs, variables_of
+    from gradysim.results.quantity_table import variables_of
+    from gradysim.results.run_table import Runs
 
     kept = Runs(run for run in runs if variable in variables_of(run))
     if not len(kept) or len(kept) == len(runs):

@@ -35,6 +35,11 @@ def read_study(directory: Path) -> "Runs":
     return found
 
 
+def drawn_text(files: Iterable[Path]) -> str:
+    """Return what the commands print about the three files of a figure."""
+    return "drawn in {}; numbers in {}, origin in {}".format(*files)
+
+
 def conditions(where: Iterable[str]) -> dict[str, list[str]]:
     """Return {variable: values} of `--where`. Raises ConfigError."""
     from gradysim.scenario.errors import ConfigError

@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from numbers import Real
 
-from rich import box
 from rich.console import Console, ConsoleOptions, Group, RenderableType, RenderResult
 from rich.measure import Measurement
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
+from gradysim.cli.console import number_column, report_table, text_column
 from gradysim.protocol.plain_value import as_float, plain_value, readable_number
 from gradysim.results.delays import Delays
 from gradysim.results.outcomes import LEDGERS, Counts, outcome_ratios
@@ -250,12 +250,14 @@ def numbers(result: RunResult) -> Iterator[str]:
 
 def node_table(nodes: tuple[NodeResult, ...]) -> Table:
     """Return a row for each node: its position and its tracked variables."""
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, collapse_padding=True)
-    table.add_column("id", justify="right", no_wrap=True)
-    table.add_column("name", overflow="fold")
-    table.add_column("protocol", overflow="fold")
-    table.add_column("position in m", justify="right", no_wrap=True)
-    table.add_column("tracked variables", overflow="fold")
+    table = report_table(
+        number_column("id"),
+        text_column("name"),
+        text_column("protocol"),
+        number_column("position in m"),
+        text_column("tracked variables"),
+    )
+    table.collapse_padding = True
     for node in nodes:
         table.add_row(
             Text(str(node.id)),
@@ -269,10 +271,8 @@ def node_table(nodes: tuple[NodeResult, ...]) -> Table:
 
 def delay_table(delays: Mapping[str, Delays]) -> Table:
     """Return a row for each kind of message: number of receptions and delays."""
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-    table.add_column("kind", no_wrap=True)
-    for column in ("received", "mean", "median", "95th percentile", "longest"):
-        table.add_column(column, justify="right", no_wrap=True)
+    times = ("received", "mean", "median", "95th percentile", "longest")
+    table = report_table(Column("kind", no_wrap=True), *map(number_column, times))
     for kind, each in delays.items():
         times_s = (each.mean_s, each.quantile_s(0.5), each.quantile_s(0.95), each.max_s)
         table.add_row(kind, f"{each.count:,}", *map(milliseconds, times_s))
@@ -364,10 +364,8 @@ class WideTable:
         return Measurement.get(console, unlimited, self._table(columns)).maximum <= options.max_width
 
     def _table(self, columns: Mapping[str, Sequence[str]]) -> Table:
-        table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-        table.add_column(Text(self._corner), no_wrap=True)
-        for heading in columns:
-            table.add_column(Text(heading.replace(" ", "\n")), justify="right", no_wrap=True)
+        numbers = [number_column(heading.replace(" ", "\n")) for heading in columns]
+        table = report_table(Column(Text(self._corner), no_wrap=True), *numbers)
         for row, *cells in zip(self._rows, *columns.values(), strict=True):
             table.add_row(*map(Text, (row, *cells)))
         if self._sums is not None:
@@ -455,10 +453,9 @@ def kinds_overheard(nodes: Iterable[NodeResult]) -> str:
 
 def interferer_table(nodes: Iterable[NodeResult]) -> Table:
     """Return a row for each node that lost frames to interference: how many, and frames of which nodes."""
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
-    table.add_column("at", no_wrap=True)
-    table.add_column("frames lost", justify="right", no_wrap=True)
-    table.add_column("with frames of", overflow="fold")
+    table = report_table(
+        Column("at", no_wrap=True), number_column("frames lost"), text_column("with frames of")
+    )
     for node in nodes:
         if node.interferers:
             lost = sum(counts.get("interference", 0) for counts in (node.frame_fates or {}).values())

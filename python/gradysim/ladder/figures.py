@@ -1,11 +1,19 @@
 """Numbers of the figures of a ladder and of a curve of jitters, for `gradysim.plots.save_numbers`."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from gradysim.ladder.desync import Desync
 from gradysim.ladder.ladder import Rung
+from gradysim.plots.line import draw_line
 from gradysim.plots.numbers import Curve, Numbers, caption_of, columns_of, label_of
 from gradysim.results.confidence_interval import Estimate
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_MOST_CATEGORIES = 5
+"""Largest number of categories whose names fit next to each other."""
 
 
 def ladder_numbers(rungs: Sequence[Rung], metric: str, run_count: int) -> Numbers:
@@ -20,7 +28,13 @@ def ladder_numbers(rungs: Sequence[Rung], metric: str, run_count: int) -> Number
             **columns_of([rung.metric for rung in rungs if rung.metric is not None]),
         },
     )
-    return Numbers([curve], "level", label_of(metric), caption_of("mean", [run_count]), names)
+    return Numbers(_draw, [curve], "level", label_of(metric), caption_of("mean", [run_count]), names)
+
+
+def _draw(axes: "Axes", numbers: Numbers) -> "Axes":
+    if len(numbers.categories) > _MOST_CATEGORIES:
+        axes.tick_params("x", rotation=30)
+    return draw_line(axes, numbers)
 
 
 def jitter_numbers(found: Desync) -> Numbers:
@@ -35,4 +49,4 @@ def jitter_numbers(found: Desync) -> Numbers:
         },
     )
     caption = f"{without.delivery:.3f} without jitter; n = {found.runs_per_trial} runs"
-    return Numbers([curve], "jitter (s)", "receptions delivered", caption)
+    return Numbers(draw_line, [curve], "jitter (s)", "receptions delivered", caption)

@@ -10,24 +10,25 @@ the name of a quantity of `gradysim means`. `x` and `by` are names of variables:
 `save_figure` draws one and writes its files. `STYLE` are settings for `matplotlib.rc_context`.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Mapping
+from inspect import signature
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gradysim.plots.cdf import cdf_numbers, draw_cdf
-from gradysim.plots.compare import changes_height_in, changes_numbers, draw_changes
+from gradysim.plots.cdf import cdf_numbers
+from gradysim.plots.compare import changes_numbers
 from gradysim.plots.figure import STYLE, check_file, new_figure, write_files
-from gradysim.plots.line import diff_numbers, draw_diff, draw_line, line_numbers
-from gradysim.plots.map import draw_map, map_numbers
+from gradysim.plots.line import diff_numbers, line_numbers
+from gradysim.plots.map import map_numbers
 from gradysim.plots.numbers import Numbers
-from gradysim.plots.outcomes import draw_outcomes, outcome_names, outcomes_numbers
-from gradysim.plots.time import draw_time, time_numbers, vector_names
+from gradysim.plots.outcomes import outcome_names, outcomes_numbers
+from gradysim.plots.time import time_numbers, vector_names
 from gradysim.results.compare import Change, Pairs
 from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs
-from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.scenario.errors import ConfigError, unknown_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -51,7 +52,7 @@ __all__ = [
 
 def line(axes: "Axes", runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None) -> "Axes":
     """Draw the mean of `y` over the runs with each value of `x`, with 95 % intervals."""
-    return draw_line(axes, line_numbers(runs, x=x, y=y, by=by))
+    return line_numbers(runs, x=x, y=y, by=by).into(axes)
 
 
 def diff(
@@ -67,17 +68,17 @@ def diff(
 
     The first variable of `by` is compared: each of its values minus `baseline`, by default the first one.
     """
-    return draw_diff(axes, diff_numbers(runs, x=x, y=y, by=by, baseline=baseline))
+    return diff_numbers(runs, x=x, y=y, by=by, baseline=baseline).into(axes)
 
 
 def cdf(axes: "Axes", runs: Runs, *, y: str, by: Iterable[str] | None = None) -> "Axes":
     """Draw the distribution of delays of messages, of a tracked variable of nodes, or of a number of runs."""
-    return draw_cdf(axes, cdf_numbers(runs, y=y, by=by))
+    return cdf_numbers(runs, y=y, by=by).into(axes)
 
 
 def time(axes: "Axes", runs: Runs, *, y: str, by: Iterable[str] | None = None) -> "Axes":
     """Draw a tracked variable over simulated time, from the files of `gradysim run --vectors`."""
-    return draw_time(axes, time_numbers(runs, y=y, by=by))
+    return time_numbers(runs, y=y, by=by).into(axes)
 
 
 def outcomes(
@@ -90,53 +91,36 @@ def outcomes(
     omit: Iterable[str] = (),
 ) -> "Axes":
     """Draw the outcomes of frames or messages, `y` = `broadcast frames`, as stacked bars without `omit`."""
-    return draw_outcomes(axes, outcomes_numbers(runs, x=x, y=y, by=by, omit=omit))
+    return outcomes_numbers(runs, x=x, y=y, by=by, omit=omit).into(axes)
 
 
 def map(axes: "Axes", runs: Runs) -> "Axes":
     """Draw the paths of the nodes of the first run, from the files of `gradysim run --vectors`."""
-    return draw_map(axes, map_numbers(runs))
+    return map_numbers(runs).into(axes)
 
 
-_MOST_CATEGORIES = 5
-"""Largest number of categories whose names fit next to each other."""
-
-
-@dataclass(frozen=True)
-class Kind:
-    """A kind of figure.
-
-    Attributes:
-        numbers: Computes the numbers of the figure.
-        draw: Draws them into axes.
-        needs: Arguments that `numbers` must have.
-        takes: Its other arguments.
-        names: Returns the valid values of `y`.
-    """
-
-    numbers: Callable[..., Numbers]
-    draw: Callable[["Axes", Numbers], "Axes"]
-    needs: tuple[str, ...]
-    takes: tuple[str, ...] = ()
-    names: Callable[[Runs], list[str]] = lambda runs: runs.quantities
-
-
-KINDS: Mapping[str, Kind] = {
-    "line": Kind(line_numbers, draw_line, ("x", "y"), ("by",)),
-    "diff": Kind(diff_numbers, draw_diff, ("x", "y"), ("by", "baseline")),
-    "cdf": Kind(cdf_numbers, draw_cdf, ("y",), ("by",)),
-    "time": Kind(time_numbers, draw_time, ("y",), ("by",), vector_names),
-    "outcomes": Kind(outcomes_numbers, draw_outcomes, ("y",), ("x", "by", "omit"), outcome_names),
-    "map": Kind(map_numbers, draw_map, ()),
+KINDS: Mapping[str, Callable[..., Numbers]] = {
+    "line": line_numbers,
+    "diff": diff_numbers,
+    "cdf": cdf_numbers,
+    "time": time_numbers,
+    "outcomes": outcomes_numbers,
+    "map": map_numbers,
 }
+"""Kinds of figures. The function of each computes its numbers, and its signature has the arguments."""
+
+_NAMES: Mapping[str, Callable[[Runs], list[str]]] = defaultdict(
+    lambda: lambda runs: runs.quantities, {"time": vector_names, "outcomes": outcome_names}
+)
+"""The valid values of `y`: for most kinds any quantity of the runs."""
 
 
 def draw(
     runs: Runs, *, kind: str = "line", columns: int = 1, log: Iterable[str] = (), **arguments: Any
 ) -> "Figure":
     """Draw a figure, which a notebook shows. Arguments and exceptions are those of `save_figure`."""
-    chosen, given = _chosen(runs, kind, arguments)
-    return _drawn(chosen.numbers(runs, **given), chosen.draw, new_figure(columns), log)
+    given = _given(runs, kind, arguments)
+    return _drawn(KINDS[kind](runs, **given), new_figure(columns), log)
 
 
 def save_figure(
@@ -163,35 +147,30 @@ def save_figure(
         ImportError: matplotlib is missing.
         OSError: A file cannot be read or written.
     """
-    path = Path(path)
-    chosen, given = _chosen(runs, kind, arguments)
-    check_file(path, list(runs))
-    empty = new_figure(columns)
-    numbers = chosen.numbers(runs, **given)
+    given = _given(runs, kind, arguments)
     origin = {"kind": kind, **given, **({"log": list(log)} if log else {})}
-    return _save(path, numbers, chosen.draw, list(runs), origin, empty, log)
+    return _save(path, lambda: KINDS[kind](runs, **given), origin, runs, columns, log)
 
 
-def _chosen(runs: Runs, kind: str, arguments: Mapping[str, Any]) -> tuple[Kind, dict[str, Any]]:
-    """Return a kind of figure, and the arguments for it that are given. Raises ConfigError."""
+def _given(runs: Runs, kind: str, arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arguments for a kind of figure that are given. Raises ConfigError."""
     if kind not in KINDS:
-        raise ConfigError(
-            f"there is no figure of kind {kind}", expected=", ".join(KINDS), suggestion=nearest(kind, KINDS)
-        )
-    chosen = KINDS[kind]
+        raise unknown_name(f"there is no figure of kind {kind}", kind, KINDS)
     given = {name: value for name, value in arguments.items() if value is not None and value != ()}
-    for name in chosen.needs:
-        if name not in given:
-            expected = ", ".join(runs.variables if name == "x" else chosen.names(runs))
-            raise ConfigError(f"--kind {kind} needs --{_option(name)}", expected=f"one of {expected}")
+    _, *parameters = signature(KINDS[kind]).parameters.values()
+    for each in parameters:
+        if each.default is each.empty and each.name not in given:
+            known = runs.variables if each.name == "x" else _NAMES[kind](runs)
+            problem = f"--kind {kind} needs --{_option(each.name)}"
+            raise ConfigError(problem, expected=f"one of {', '.join(known)}")
+    takes = [each.name for each in parameters]
     for name in given:
-        if name not in (*chosen.needs, *chosen.takes):
-            takes = [f"--{_option(each)}" for each in (*chosen.needs, *chosen.takes)]
+        if name not in takes:
             raise ConfigError(
                 f"--kind {kind} does not take --{_option(name)}",
-                expected=" and ".join(takes) or "none of these",
+                expected=" and ".join(f"--{_option(each)}" for each in takes) or "none of these",
             )
-    return chosen, given
+    return given
 
 
 def _option(argument: str) -> str:
@@ -214,16 +193,7 @@ def save_numbers(
         ImportError: matplotlib is missing.
         OSError: A file cannot be written.
     """
-
-    def draw(axes: "Axes", numbers: Numbers) -> "Axes":
-        draw_line(axes, numbers)
-        if len(numbers.categories) > _MOST_CATEGORIES:
-            axes.tick_params("x", rotation=30)
-        return axes
-
-    path = Path(path)
-    check_file(path, [])
-    return _save(path, numbers, draw, (), origin, new_figure(), log)
+    return _save(path, lambda: numbers, origin, log=log)
 
 
 def save_changes(
@@ -243,38 +213,38 @@ def save_changes(
         ImportError: matplotlib is missing.
         OSError: A file cannot be read or written.
     """
-    path = Path(path)
-    check_file(path, pairs.all_runs)
-    numbers = changes_numbers(changes, first, second)
-    empty = new_figure()
-    empty.set_figheight(changes_height_in(numbers))
-    return _save(path, numbers, draw_changes, pairs.all_runs, {"compared": [first, second]}, empty)
+    origin = {"compared": [first, second]}
+    return _save(path, lambda: changes_numbers(changes, first, second), origin, pairs.all_runs)
 
 
 def _save(
-    path: Path,
-    numbers: Numbers,
-    draw: Callable[["Axes", Numbers], "Axes"],
-    runs: Sequence[RunSummary],
+    path: str | Path,
+    compute: Callable[[], Numbers],
     origin: Mapping[str, object],
-    empty: "Figure",
+    runs: Iterable[RunSummary] = (),
+    columns: int = 1,
     log: Iterable[str] = (),
 ) -> tuple[Path, Path, Path]:
-    """Draw numbers into an empty figure, and write the three files."""
+    """Compute and draw numbers, and write the three files. What can be wrong with the figure comes first."""
+    path, runs = Path(path), list(runs)
+    check_file(path, runs)
+    empty = new_figure(columns)
+    numbers = compute()
+
     from matplotlib import rc_context
 
     with rc_context(STYLE):
-        return write_files(_drawn(numbers, draw, empty, log), path, numbers, runs, origin)
+        return write_files(_drawn(numbers, empty, log), path, numbers, runs, origin)
 
 
-def _drawn(
-    numbers: Numbers, draw: Callable[["Axes", Numbers], "Axes"], empty: "Figure", log: Iterable[str]
-) -> "Figure":
+def _drawn(numbers: Numbers, empty: "Figure", log: Iterable[str]) -> "Figure":
     """Return the figure with these numbers, on logarithmic axes for `log`."""
     from matplotlib import rc_context
 
+    if numbers.height_in is not None:
+        empty.set_figheight(numbers.height_in)
     with rc_context(STYLE):
-        axes = draw(empty.subplots(), numbers)
+        axes = numbers.into(empty.subplots())
         for axis in log:
             if getattr(axes.dataLim, f"minpos{axis}") == inf:
                 raise ConfigError(f"--log {axis}: no value on this axis is positive")

@@ -52,7 +52,7 @@ def cdf_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numbe
         columns["runs"] = [counts[-1]] * len(grid)
         curves.append(Curve(values, {y: grid, **columns}))
     caption = caption_of("distribution", counts) if averaged else f"distribution, {number_of_runs(counts)}"
-    return Numbers(curves, label_of(y), "share of values", caption)
+    return Numbers(draw_cdf, curves, label_of(y), "share of values", caption)
 
 
 def draw_cdf(axes: "Axes", numbers: Numbers) -> "Axes":

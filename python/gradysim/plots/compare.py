@@ -1,12 +1,13 @@
 """Paired differences of several quantities, relative to the first set of runs, with their intervals."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import astuple, replace
 from typing import TYPE_CHECKING, Any
 
 from gradysim.plots.figure import HEIGHT_IN, set_texts, styles_of
 from gradysim.plots.numbers import Curve, Numbers, bars, caption_of
 from gradysim.results.compare import Change, varying_values
+from gradysim.results.quantity_table import grouped
 from gradysim.scenario.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -29,46 +30,37 @@ def changes_numbers(changes: Iterable[Change], first: str, second: str) -> Numbe
     if not drawn:
         raise ConfigError(f"there is no change to draw: {first} has no mean other than 0")
     varying = varying_values(drawn)
-    of_values: dict[tuple[object, ...], list[Change]] = {}
-    for change in drawn:
-        of_values.setdefault(tuple(change.values[name] for name in varying), []).append(change)
-    curves = [
-        Curve(dict(zip(varying, values, strict=True)), _columns(alike)) for values, alike in of_values.items()
-    ]
+    curves = []
+    for values, alike in grouped(drawn, lambda change: tuple(map(change.values.get, varying))).items():
+        rows = list(map(_row, alike))
+        columns = {name: [row[name] for row in rows] for name in rows[0]}
+        curves.append(Curve(dict(zip(varying, values, strict=True)), columns))
     caption = caption_of("mean of paired differences", [change.pairs for change in drawn], "pair")
     categories = list(dict.fromkeys(change.quantity for change in drawn))
-    return Numbers(curves, f"{second} - {first},\nin % of {first}", "", caption, categories)
+    of_quantity_in = len(curves) * _HEIGHT_OF_MARKER_IN + _HEIGHT_OF_GAP_IN
+    height_in = max(HEIGHT_IN, len(categories) * of_quantity_in + _HEIGHT_OF_TEXTS_IN)
+    x_label = f"{second} - {first},\nin % of {first}"
+    return Numbers(draw_changes, curves, x_label, "", caption, categories, height_in)
 
 
-def _columns(changes: Sequence[Change]) -> Mapping[str, Sequence[Any]]:
-    columns: dict[str, list[Any]] = {}
-    for change in changes:
-        assert change.first is not None
-        assert change.second is not None
-        assert change.difference is not None
-        percent = 100 / abs(change.first.mean)
-        low, high = change.difference.low, change.difference.high
-        row = {
-            "quantity": change.quantity,
-            "pairs": change.pairs,
-            "first": change.first.mean,
-            "second": change.second.mean,
-            "difference": change.difference.mean,
-            "low": low,
-            "high": high,
-            "percent": change.difference.mean * percent,
-            "percent_low": None if low is None else low * percent,
-            "percent_high": None if high is None else high * percent,
-        }
-        for name, value in row.items():
-            columns.setdefault(name, []).append(value)
-    return columns
-
-
-def changes_height_in(numbers: Numbers) -> float:
-    """Return the height of a figure that has room for all quantities, in inches."""
-    of_quantity = len(numbers.curves) * _HEIGHT_OF_MARKER_IN + _HEIGHT_OF_GAP_IN
-    return max(HEIGHT_IN, len(numbers.categories) * of_quantity + _HEIGHT_OF_TEXTS_IN)
+def _row(change: Change) -> dict[str, Any]:
+    assert change.first is not None
+    assert change.second is not None
+    assert change.difference is not None
+    difference, low, high = astuple(change.difference)
+    percent = 100 / abs(change.first.mean)
+    return {
+        "quantity": change.quantity,
+        "pairs": change.pairs,
+        "first": change.first.mean,
+        "second": change.second.mean,
+        "difference": difference,
+        "low": low,
+        "high": high,
+        "percent": difference * percent,
+        "percent_low": None if low is None else low * percent,
+        "percent_high": None if high is None else high * percent,
+    }
 
 
 def draw_changes(axes: "Axes", numbers: Numbers) -> "Axes":

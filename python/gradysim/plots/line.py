@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from gradysim.plots.figure import set_texts, styles_of
 from gradysim.plots.numbers import (
@@ -17,10 +17,10 @@ from gradysim.plots.numbers import (
     series_of,
     x_axis,
 )
-from gradysim.results.paired import compare_pairs
-from gradysim.results.run_summary import RunSummary
-from gradysim.results.run_table import Runs, variables_of
-from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.results.compare import Pairs
+from gradysim.results.quantity_table import QuantityTable, grouped, variables_of
+from gradysim.results.run_table import Runs
+from gradysim.scenario.errors import ConfigError, unknown_name
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -36,20 +36,20 @@ def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None)
     """Return the mean of `y` for each value of `x`. Raises ConfigError."""
     axis = x_axis(runs, x)
     check_quantity(runs, y)
-    binary = all(run.is_binary(y) for run in runs)
     curves = []
     for values, alike in series_of(runs, by, x):
+        by_x = grouped(alike, lambda run: variables_of(run).get(x))
         found = {
             place: numbers
             for value, place in axis.places.items()
-            if (numbers := _numbers(_with(alike, x, value), y))
+            if (numbers := QuantityTable(by_x.get(value, ())).numbers(y))
         }
         if found:
-            columns = mean_columns(list(found.values()), binary=binary)
+            columns = mean_columns(list(found.values()), binary=runs.is_binary(y))
             curves.append(Curve(values, {axis.label: list(found), **columns}))
     counts = [count for curve in curves for count in curve.columns["runs"]]
     caption = caption_of("mean", counts)
-    return Numbers(curves, axis.label, label_of(y), caption, axis.categories)
+    return Numbers(draw_line, curves, axis.label, label_of(y), caption, axis.categories)
 
 
 def diff_numbers(
@@ -63,7 +63,7 @@ def diff_numbers(
     axis = x_axis(runs, x)
     check_quantity(runs, y)
     series = series_of(runs, by, x)
-    compared = next(iter(series[0][0]), "")
+    compared, *others = *series[0][0], x
     names = list(dict.fromkeys(str(values.get(compared)) for values, _ in series))
     if len(names) < 2:
         raise ConfigError(
@@ -71,35 +71,24 @@ def diff_numbers(
         )
     base = names[0] if baseline is None else baseline
     if base not in names:
-        raise ConfigError(
-            f"no run has {compared} = {base}",
-            expected=f"one of {', '.join(names)}",
-            suggestion=nearest(base, names),
-        )
-    binary = all(run.is_binary(y) for run in runs)
-    of_base = {_rest(values, compared): alike for values, alike in series if str(values[compared]) == base}
+        raise unknown_name(f"no run has {compared} = {base}", base, names)
+    of_base = [run for values, alike in series if str(values[compared]) == base for run in alike]
+    binary = {y} if runs.is_binary(y) else ()
     curves = []
     for values, alike in series:
-        others = of_base.get(_rest(values, compared), [])
         if str(values[compared]) == base:
             continue
-        found = {
-            place: pairs
-            for value, place in axis.places.items()
-            if (pairs := _pairs(_with(others, x, value), _with(alike, x, value), y))
-        }
-        if found:
-            compared_pairs = [
-                compare_pairs(*zip(*pairs, strict=True), binary=binary) for pairs in found.values()
-            ]
+        changes = Pairs.of(of_base, alike, others).changes_of([y], binary)
+        by_x = {change.values[x]: change for change in changes if change.difference}
+        drawn = [(place, by_x[value]) for value, place in axis.places.items() if value in by_x]
+        if drawn:
             columns = {
-                axis.label: list(found),
-                **columns_of([each.difference for each in compared_pairs]),
-                "pairs": [each.pairs for each in compared_pairs],
-                "higher": [sum(after > before for before, after in pairs) for pairs in found.values()],
+                axis.label: [place for place, _ in drawn],
+                **columns_of([change.difference for _, change in drawn if change.difference]),
+                "pairs": [change.pairs for _, change in drawn],
+                "higher": [change.higher for _, change in drawn],
             }
-            label = {**values, compared: f"{values[compared]} - {base}"}
-            curves.append(Curve(label, columns))
+            curves.append(Curve({**values, compared: f"{values[compared]} - {base}"}, columns))
     if not curves:
         raise ConfigError(
             f"no two runs that differ in `{compared}` have the same seed",
@@ -107,7 +96,7 @@ def diff_numbers(
         )
     counts = [count for curve in curves for count in curve.columns["pairs"]]
     caption = f"{caption_of('mean of paired differences', counts, 'pair')}; k/n: higher in k of n"
-    return Numbers(curves, axis.label, f"difference of {label_of(y)}", caption, axis.categories)
+    return Numbers(draw_diff, curves, axis.label, f"difference of {label_of(y)}", caption, axis.categories)
 
 
 def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
@@ -157,25 +146,3 @@ def draw_diff(axes: "Axes", numbers: Numbers) -> "Axes":
                 f"{higher}/{pairs}", (place, mean), (4, 3), textcoords="offset points", fontsize="x-small"
             )
     return axes
-
-
-def _with(runs: Iterable[RunSummary], variable: str, value: object) -> list[RunSummary]:
-    return [run for run in runs if variables_of(run).get(variable) == value]
-
-
-def _rest(values: dict[str, Any], compared: str) -> tuple[Any, ...]:
-    return tuple(value for name, value in values.items() if name != compared)
-
-
-def _pairs(base: Sequence[RunSummary], runs: Sequence[RunSummary], y: str) -> list[tuple[float, float]]:
-    """Return the numbers of runs with the same seed, that of the base first."""
-    by_seed = {run.seed: number for run in base if (number := run.number(y)) is not None}
-    return [
-        (by_seed[run.seed], number)
-        for run in runs
-        if (number := run.number(y)) is not None and run.seed in by_seed
-    ]
-
-
-def _numbers(runs: Iterable[RunSummary], y: str) -> list[float]:
-    return [number for run in runs if (number := run.number(y)) is not None]

@@ -50,7 +50,7 @@ def map_numbers(runs: Runs) -> Numbers:
         columns = zip(*points, strict=True)
         time_s, x_m, y_m, z_m = map(list, columns)
         curves.append(Curve({"node": node["name"]}, {"x_m": x_m, "y_m": y_m, "z_m": z_m, "time_s": time_s}))
-    return Numbers(curves, "x (m)", "y (m)", f"{run.name}, {run.mode} mode, seed {run.seed}")
+    return Numbers(draw_map, curves, "x (m)", "y (m)", f"{run.name}, {run.mode} mode, seed {run.seed}")
 
 
 def draw_map(axes: "Axes", numbers: Numbers) -> "Axes":

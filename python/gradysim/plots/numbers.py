@@ -1,18 +1,22 @@
 """Numbers of a figure: computed by each kind of figure, drawn, and written as CSV."""
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from gradysim.results.confidence_interval import Estimate, estimate
 from gradysim.results.quantity import quantities
+from gradysim.results.quantity_table import OF_RUN, grouped, values_of, variables_of
 from gradysim.results.result import RunResult
 from gradysim.results.run_summary import RunSummary
-from gradysim.results.run_table import OF_RUN, Runs, variables_of
-from gradysim.scenario.errors import BadValue, ConfigError, nearest
+from gradysim.results.run_table import Runs
+from gradysim.scenario.errors import BadValue, ConfigError, unknown_name
 from gradysim.scenario.expressions import parse_value
 from gradysim.scenario.units import UNITS, Quantity
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True)
@@ -46,15 +50,23 @@ class Numbers:
     """Content of a figure.
 
     Attributes:
+        draw: Draws the content into axes, and returns them.
         caption: Meaning of the numbers, and the number of runs.
         categories: Values of an x axis without numbers, in order.
+        height_in: Height of the figure in inches; None for the usual one.
     """
 
+    draw: Callable[["Axes", "Numbers"], "Axes"]
     curves: Sequence[Curve]
     x_label: str
     y_label: str
     caption: str
-    categories: Sequence[str] = field(default=())
+    categories: Sequence[str] = ()
+    height_in: float | None = None
+
+    def into(self, axes: "Axes") -> "Axes":
+        """Draw the content into axes, and return them."""
+        return self.draw(axes, self)
 
 
 @dataclass(frozen=True)
@@ -130,32 +142,20 @@ def series_of(
                     expected=f"--by {' '.join([*chosen, name])}, or one value: --where {name}=VALUE",
                 )
             chosen.append(name)
-    found: dict[tuple[Any, ...], list[RunSummary]] = {}
-    for run in runs:
-        values = variables_of(run)
-        found.setdefault(tuple(values.get(name) for name in chosen), []).append(run)
+    found = grouped(runs, lambda run: values_of(run, chosen))
     return [(dict(zip(chosen, values, strict=True)), alike) for values, alike in found.items()]
 
 
 def _differs(runs: Runs, name: str, within: Sequence[str]) -> bool:
-    first: dict[tuple[Any, ...], Any] = {}
-    for run in runs:
-        values = variables_of(run)
-        known = first.setdefault(tuple(values.get(each) for each in within), values.get(name))
-        if known != values.get(name):
-            return True
-    return False
+    groups = grouped(runs, lambda run: values_of(run, within)).values()
+    return any(len({variables_of(run).get(name) for run in alike}) > 1 for alike in groups)
 
 
 def check_quantity(runs: Runs, quantity: str, known: Iterable[str] = ()) -> None:
     """Check a name of `runs.quantities`, or of the `known` ones. Raises ConfigError."""
     names = list(known) or runs.quantities
     if quantity not in names:
-        raise ConfigError(
-            f"no quantity is called `{quantity}`",
-            expected=f"one of {', '.join(names)}",
-            suggestion=nearest(quantity, names),
-        )
+        raise unknown_name(f"no quantity is called `{quantity}`", quantity, names)
 
 
 def label_of(quantity: str) -> str:

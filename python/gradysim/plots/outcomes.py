@@ -14,7 +14,8 @@ from gradysim.plots.numbers import (
     x_axis,
 )
 from gradysim.results.outcomes import Outcomes, decided
-from gradysim.results.run_table import Runs, fates_of, variables_of
+from gradysim.results.quantity_table import variables_of
+from gradysim.results.run_table import Runs, fates_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,7 +66,7 @@ def outcomes_numbers(
         curves.append(Curve({"outcome": outcome}, {**variables, **mean_columns(shares)}))
     caption = f"mean shares, {number_of_runs(len(found) for _, found in bars)}"
     categories = [_name_of(values, x) for values, _ in bars]
-    return Numbers(curves, x or "", f"share of {y}", caption, categories)
+    return Numbers(draw_outcomes, curves, x or "", f"share of {y}", caption, categories)
 
 
 def outcome_names(runs: Runs) -> list[str]:

@@ -65,7 +65,7 @@ def time_numbers(runs: Runs, *, y: str, by: Iterable[str] | None = None) -> Numb
         for values, points in known
     ]
     caption = caption_of("mean", counts)
-    return Numbers(curves, f"time ({unit})", y, caption)
+    return Numbers(draw_time, curves, f"time ({unit})", y, caption)
 
 
 def vector_names(runs: Runs) -> list[str]:

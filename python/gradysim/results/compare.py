@@ -4,12 +4,12 @@ from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from gradysim.results.confidence_interval import Estimate, estimate
-from gradysim.results.means import means
 from gradysim.results.outcomes import loss_shares
 from gradysim.results.paired import compare_pairs
 from gradysim.results.quantity import Names
+from gradysim.results.quantity_table import QuantityTable, grouped, union, values_of, variables_of
 from gradysim.results.run_summary import RunSummary
-from gradysim.results.run_table import Runs, fates_of, variables_of
+from gradysim.results.run_table import Runs, fates_of
 from gradysim.scenario.errors import ConfigError
 
 _OWN = ("run", "seed")
@@ -27,6 +27,7 @@ class Change:
         first: Mean in the first set; None if it has no number.
         second: Mean in the second set; None if it has no number.
         difference: Mean of second - first within each pair; None without pairs.
+        higher: Number of pairs in which the second number is larger.
     """
 
     values: Mapping[str, object]
@@ -35,6 +36,7 @@ class Change:
     first: Estimate | None
     second: Estimate | None
     difference: Estimate | None
+    higher: int = 0
 
 
 @dataclass(frozen=True)
@@ -51,15 +53,26 @@ class Pairs:
     runs: Sequence[tuple[RunSummary, RunSummary]]
     left_out: tuple[int, int]
 
+    @classmethod
+    def of(
+        cls, first: Iterable[RunSummary], second: Iterable[RunSummary], variables: Sequence[str]
+    ) -> "Pairs":
+        """Return the pairs with equal values of these variables.
+
+        Raises ConfigError if a run has several partners.
+        """
+        of_first, of_second = (_by_key(runs, variables) for runs in (first, second))
+        pairs = [(run, of_second[key]) for key, run in of_first.items() if key in of_second]
+        return cls(variables, pairs, (len(of_first) - len(pairs), len(of_second) - len(pairs)))
+
     def changes(self, quantities: Names | None = None) -> list[Change]:
         """Return the change of each quantity, for each combination of values.
 
         `quantities` selects as in `read_means`. By default they are those that `gradysim means` prints.
         """
-        wanted = dict.fromkeys(mean.quantity for mean in means(self.all_runs, quantities))
-        runs = self.all_runs
-        binary = {name for name in wanted if all(run.is_binary(name) for run in runs)}
-        return self._compared(wanted, lambda run: run.numbers, binary)
+        table = QuantityTable(self.all_runs)
+        shown = table.shown(quantities)
+        return self.changes_of(shown, {name for name in shown if table.is_binary(name)})
 
     def losses(self) -> list[Change]:
         """Return the change of each cause of loss, as a share of receptions, if any was lost.
@@ -67,23 +80,16 @@ class Pairs:
         A mode that does not have a cause loses nothing by it.
         """
         shares = {id(run): loss_shares(fates_of(run)) for run in self.all_runs}
-        causes = dict.fromkeys(
-            (kind, cause)
+        causes = union(
+            [(kind, cause) for kind, of_kind in of_kinds.items() for cause, share in of_kind.items() if share]
             for of_kinds in shares.values()
-            for kind, of_kind in of_kinds.items()
-            for cause, share in of_kind.items()
-            if share
         )
 
         def numbers(run: RunSummary) -> dict[str, float]:
-            of_kinds = shares[id(run)]
-            return {
-                f"{kind} {cause}": of_kinds[kind].get(cause, 0.0)
-                for kind, cause in causes
-                if kind in of_kinds
-            }
+            kinds = shares[id(run)]
+            return {f"{kind} {cause}": kinds[kind].get(cause, 0.0) for kind, cause in causes if kind in kinds}
 
-        found = self._compared([" ".join(names) for names in causes], numbers)
+        found = self.changes_of(map(" ".join, causes), numbers_of=numbers)
         return [loss for loss in found if any(side and side.mean for side in (loss.first, loss.second))]
 
     @property
@@ -91,45 +97,47 @@ class Pairs:
         """The runs of all pairs: of the first set, then of the second one."""
         return [run for side in zip(*self.runs, strict=True) for run in side]
 
-    def _compared(
+    def changes_of(
         self,
         quantities: Iterable[str],
-        numbers_of: Callable[[RunSummary], Mapping[str, float]],
         binary: Container[str] = (),
+        numbers_of: Callable[[RunSummary], Mapping[str, float]] = lambda run: run.numbers,
     ) -> list[Change]:
-        alike: dict[tuple[object, ...], list[tuple[RunSummary, RunSummary]]] = {}
-        for pair in self.runs:
-            alike.setdefault(_values(pair[0], self.variables), []).append(pair)
+        """Return the change of each of these quantities that a run has, for each combination of values."""
+        names = list(quantities)
         found = []
-        for values, pairs in alike.items():
+        for values, pairs in grouped(self.runs, lambda pair: values_of(pair[0], self.variables)).items():
             numbers = [(numbers_of(first), numbers_of(second)) for first, second in pairs]
-            for name in quantities:
-                of_values = dict(zip(self.variables, values, strict=True))
-                change = _change(of_values, name, numbers, binary=name in binary)
-                if change.first or change.second:
-                    found.append(change)
+            for name in names:
+                known = [(first.get(name), second.get(name)) for first, second in numbers]
+                if any(number is not None for pair in known for number in pair):
+                    of_values = dict(zip(self.variables, values, strict=True))
+                    found.append(_change(of_values, name, known, binary=name in binary))
         return found
 
 
 def _change(
     values: Mapping[str, object],
     name: str,
-    numbers: Sequence[tuple[Mapping[str, float], Mapping[str, float]]],
+    numbers: Sequence[tuple[float | None, float | None]],
     *,
     binary: bool,
 ) -> Change:
-    both = [(first[name], second[name]) for first, second in numbers if name in first and name in second]
+    both = [(first, second) for first, second in numbers if first is not None and second is not None]
     if both:
         compared = compare_pairs(*zip(*both, strict=True), binary=binary)
-        return Change(values, name, compared.pairs, compared.first, compared.second, compared.difference)
-    sides = [[of_run[name] for of_run in side if name in of_run] for side in zip(*numbers, strict=True)]
+        higher = sum(second > first for first, second in both)
+        return Change(
+            values, name, compared.pairs, compared.first, compared.second, compared.difference, higher
+        )
+    sides = [[number for number in side if number is not None] for side in zip(*numbers, strict=True)]
     first, second = (estimate(side, binary=binary) if side else None for side in sides)
     return Change(values, name, 0, first, second, None)
 
 
 def varying_values(changes: Sequence[Change]) -> list[str]:
     """Return the variables of which the changes have several values."""
-    names = dict.fromkeys(name for change in changes for name in change.values)
+    names = union(change.values for change in changes)
     return [name for name in names if len({change.values.get(name) for change in changes}) > 1]
 
 
@@ -145,33 +153,26 @@ def pair_runs(first: Runs, second: Runs) -> Pairs:
         if name not in _OWN and name in second.variables
         if not set(first.values(name)).isdisjoint(second.values(name))
     ]
-    of_first, of_second = (_by_key(runs, variables) for runs in (first, second))
-    pairs = [(run, of_second[key]) for key, run in of_first.items() if key in of_second]
-    if not pairs:
+    pairs = Pairs.of(first, second, variables)
+    if not pairs.runs:
         raise ConfigError(
             f"no two runs to compare have the same {' and '.join(['seed', *variables])}",
             expected="`seed-set = ${repetition}` in the study",
         )
-    return Pairs(variables, pairs, (len(of_first) - len(pairs), len(of_second) - len(pairs)))
+    return pairs
 
 
-def _values(run: RunSummary, variables: Iterable[str]) -> tuple[object, ...]:
-    values = variables_of(run)
-    return tuple(values.get(name) for name in variables)
-
-
-def _by_key(runs: Runs, variables: Sequence[str]) -> dict[tuple[object, ...], RunSummary]:
+def _by_key(runs: Iterable[RunSummary], variables: Sequence[str]) -> dict[tuple[object, ...], RunSummary]:
     """Return the runs by seed and values. Raises ConfigError for two with the same ones."""
-    found: dict[tuple[object, ...], RunSummary] = {}
-    for run in runs:
-        other = found.setdefault((run.seed, *_values(run, variables)), run)
-        if other is not run:
-            known, values = variables_of(other), variables_of(run)
-            differing = [name for name in runs.variables if known.get(name) != values.get(name)]
-            name = next((name for name in differing if name not in _OWN), "")
+    found = grouped(runs, lambda run: (run.seed, *values_of(run, variables)))
+    for one, *others in found.values():
+        if others:
+            known, values = variables_of(one), variables_of(others[0])
+            names = [name for name in union((known, values)) if name not in _OWN]
+            name = next((name for name in names if known.get(name) != values.get(name)), "")
             raise ConfigError(
-                f"{other.name} and {run.name} have the same seed, {run.seed}"
+                f"{one.name} and {others[0].name} have the same seed, {one.seed}"
                 + (f", and differ in `{name}`" if name else ""),
                 expected=f"one value: --where {name}={known.get(name)}" if name else "a seed for each run",
             )
-    return found
+    return {key: run for key, (run,) in found.items()}

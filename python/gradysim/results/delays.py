@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import accumulate
 from typing import Any
 
-from gradysim.results.quantity import Average, Histogram, Scalar, recorded
+from gradysim.results.quantity import Average, Scalar, recorded
 
 QUANTILES = (0.5, 0.9, 0.95, 0.99)
 """Quantiles in JSON objects."""
@@ -82,6 +82,20 @@ class Delays:
             "time_s": [self._between_extremes(end) for _, end, _ in self.bins],
             "share": [count / self.count for count in counts],
         }
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """One distribution in a `.sca` file.
+
+    Attributes:
+        module: Full path, which starts with the name of the network.
+    """
+
+    module: str
+    name: str
+    values: Delays
+    attributes: Mapping[str, str] = field(default_factory=dict)
 
 
 def constant_delays(counts: Mapping[float, int]) -> Delays:

@@ -2,22 +2,18 @@
 
 import os
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property
-from itertools import chain
+from collections.abc import Iterable, Mapping
+from dataclasses import astuple, dataclass
 from pathlib import Path
-from typing import TypeVar
 
-from gradysim.results.confidence_interval import are_binary, estimate
+from gradysim.results.confidence_interval import estimate
 from gradysim.results.files import read_run_file
-from gradysim.results.quantity import Names, name_filter
+from gradysim.results.quantity import Names
+from gradysim.results.quantity_table import QuantityTable, grouped
 from gradysim.results.result_dir import read_results
 from gradysim.results.result_hash import result_hash
-from gradysim.results.run_summary import Conditions, RunSummary
+from gradysim.results.run_summary import RunSummary
 from gradysim.results.tracked_variables import REASONS
-
-_Item = TypeVar("_Item")
 
 
 @dataclass(frozen=True)
@@ -63,70 +59,51 @@ def means(results: Iterable[RunSummary], quantities: Names | None = None) -> lis
     `quantities` selects as in `read_means`. A quantity that occurs in some runs of a configuration and mode
     has a row for all of their values. It is 0 in the other runs.
     """
-    found: list[Mean] = []
-    fits = name_filter(quantities)
-    for study in _by(_blocks(results), lambda block: (block.conditions.config, block.conditions.mode)):
-        variables = [
-            each for each in _union(block.conditions.variables for block in study) if fits(" ".join(each))
-        ]
-        unlisted = () if quantities is not None else _union(block.conditions.unlisted for block in study)
-        hidden_at_zero = _union(block.conditions.hidden_at_zero for block in study)
-        shown = [
-            name
-            for name in _union(block.conditions.averages for block in study)
-            if fits(name)
-            and name not in unlisted
-            and (name not in hidden_at_zero or any(_values(study, name)))
-        ]
-        binary = {each for each in variables if are_binary(_values(study, " ".join(each)))}
-        for alike in _by(study, lambda block: block.conditions.values):
-            for group, name in variables:
-                found += _mean_of_variable(alike, group, name, binary=(group, name) in binary)
-            for name in shown:
-                if values := _values(alike, name):
-                    found.append(_mean(alike, name, values))
+    found = []
+    for study in grouped(results, lambda run: (run.config, run.mode)).values():
+        table = QuantityTable(study)
+        shown = table.shown(quantities)
+        binary = {name for name in shown if table.is_binary(name)}
+        for alike in grouped(study, lambda run: run.conditions.values).values():
+            runs = QuantityTable(alike)
+            for name, group in shown.items():
+                left_out = None if group is None else _left_out(runs, group, name)
+                if runs.numbers(name) or left_out is not None:
+                    found.append(_mean(runs, name, left_out or "", binary=name in binary))
     return found
 
 
-@dataclass(frozen=True)
-class _Block:
-    """Runs of which all have the same conditions, as one object."""
-
-    runs: Sequence[RunSummary]
-
-    @property
-    def conditions(self) -> Conditions:
-        return self.runs[0].conditions
-
-    @cached_property
-    def columns(self) -> Mapping[str, Sequence[float]]:
-        """Numbers of the runs by quantity."""
-        columns = zip(*[run.row for run in self.runs], strict=True)
-        return dict(zip(self.conditions.quantities, columns, strict=True))
-
-    @cached_property
-    def left_out(self) -> Sequence[Mapping[str, Mapping[str, int]]]:
-        """What is left out of the runs, without those that have all numbers."""
-        return [run.left_out for run in self.runs if run.left_out]
+def _mean(runs: QuantityTable, quantity: str, left_out: str, *, binary: bool) -> Mean:
+    numbers, first = runs.numbers(quantity), runs[0]
+    mean, low, high = astuple(estimate(numbers, binary=binary)) if numbers else (None, None, None)
+    return Mean(first.config, first.mode, first.iterations, quantity, len(numbers), mean, low, high, left_out)
 
 
-def _blocks(runs: Iterable[RunSummary]) -> list[_Block]:
-    return [_Block(alike) for alike in _by(runs, lambda run: id(run.conditions))]
-
-
-def _union(several: Iterable[Iterable[_Item]]) -> dict[_Item, None]:
-    return dict.fromkeys(item for items in several for item in items)
-
-
-def _values(blocks: Iterable[_Block], quantity: str) -> list[float]:
-    """Return the numbers of a quantity, of the runs that have one."""
-    return list(chain.from_iterable(block.columns.get(quantity, ()) for block in blocks))
+def _left_out(table: QuantityTable, group: str, quantity: str) -> str | None:
+    """Return the numbers of nodes without a finite number; None if the runs do not have such nodes."""
+    reasons: Counter[str] = Counter()
+    node_count = 0
+    for runs in table.blocks:
+        conditions = runs[0].conditions
+        in_group = conditions.groups.get(group, 0)
+        node_count += in_group * len(runs)
+        if quantity not in conditions.positions:
+            reasons["missing"] += in_group * len(runs)
+    for run in table.incomplete:
+        if quantity in run.left_out:
+            reasons.update(run.left_out[quantity])
+            if quantity not in run.conditions.positions:
+                reasons["missing"] -= run.conditions.groups[group]
+    text = ", ".join(f"{reasons[what]} {what}" for what in REASONS if reasons[what])
+    if not node_count:
+        return None
+    return f"{text} of {node_count}" if text else ""
 
 
 def of_different_settings(results: Iterable[RunSummary]) -> tuple[str, str] | None:
     """Return the names of two runs with equal values of variables but different settings, if any."""
     first: dict[str, RunSummary] = {}
-    for result in (block.runs[0] for block in _blocks(results)):
+    for result in (runs[0] for runs in QuantityTable(results).blocks):
         other = first.setdefault(result.conditions.values, result)
         if other.settings_hash != result.settings_hash:
             return other.name, result.name
@@ -140,7 +117,7 @@ def repeated(results: Iterable[RunSummary]) -> list[tuple[str, str]]:
     """
     first: dict[object, RunSummary] = {}
     found = []
-    for alike in _by(results, lambda result: (result.conditions.values, result.seed)):
+    for alike in grouped(results, lambda result: (result.conditions.values, result.seed)).values():
         for result in alike if len(alike) > 1 else ():
             computed = result_hash(read_run_file(result.file))
             same = (result.conditions.values, result.seed, result.settings_hash, computed)
@@ -156,60 +133,10 @@ def of_different_files(results: Iterable[RunSummary]) -> tuple[str, str, str] | 
     The values of their variables may differ, since such runs are compared with each other.
     """
     first: dict[tuple[str, str], tuple[str, RunSummary]] = {}
-    for result in (block.runs[0] for block in _blocks(results)):
+    for result in (runs[0] for runs in QuantityTable(results).blocks):
         for name, file_hash in result.conditions.file_hashes.items():
             known, other = first.setdefault((result.config, name), (file_hash, result))
             if known != file_hash:
                 one, another = (f"{each.name}.{each.mode}" for each in (other, result))
                 return one, another, name
     return None
-
-
-def _by(items: Iterable[_Item], key: Callable[[_Item], object]) -> list[list[_Item]]:
-    """Return items in groups of equal keys."""
-    groups: dict[object, list[_Item]] = {}
-    for item in items:
-        groups.setdefault(key(item), []).append(item)
-    return list(groups.values())
-
-
-def _mean_of_variable(blocks: Sequence[_Block], group: str, name: str, *, binary: bool) -> Iterator[Mean]:
-    quantity = f"{group} {name}"
-    reasons: Counter[str] = Counter()
-    node_count = 0
-    for block in blocks:
-        in_group = block.conditions.groups.get(group, 0)
-        node_count += in_group * len(block.runs)
-        others = [left_out[quantity] for left_out in block.left_out if quantity in left_out]
-        for each in others:
-            reasons.update(each)
-        if quantity not in block.columns:
-            reasons["missing"] += in_group * (len(block.runs) - len(others))
-    if node_count:
-        text = ", ".join(f"{reasons[what]} {what}" for what in REASONS if reasons[what])
-        values = _values(blocks, quantity)
-        yield _mean(blocks, quantity, values, f"{text} of {node_count}" if text else "", binary=binary)
-
-
-def _mean(
-    blocks: Sequence[_Block],
-    quantity: str,
-    values: Sequence[float],
-    left_out: str = "",
-    *,
-    binary: bool = False,
-) -> Mean:
-    found = estimate(values, binary=binary) if values else None
-    mean, low, high = (found.mean, found.low, found.high) if found else (None, None, None)
-    first = blocks[0].conditions
-    return Mean(
-        first.config,
-        first.mode,
-        first.iterations,
-        quantity,
-        len(values),
-        mean,
-        low,
-        high,
-        left_out,
-    )

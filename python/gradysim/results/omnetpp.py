@@ -13,9 +13,9 @@ from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gradysim.results.delays import bin_rows
+from gradysim.results.delays import Histogram, bin_rows
 from gradysim.results.durable import replacing
-from gradysim.results.quantity import Histogram, Scalar
+from gradysim.results.quantity import Scalar
 from gradysim.results.recorder import Values, Vector
 from gradysim.results.result import Mode, RunResult
 from gradysim.scenario.scenario import Scenario

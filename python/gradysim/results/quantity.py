@@ -10,12 +10,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, get_args
+from typing import Any, NamedTuple, get_args
 
 from gradysim.protocol.plain_value import plain_value
-
-if TYPE_CHECKING:
-    from gradysim.results.delays import Delays
 
 Names = str | Iterable[str]
 """One name or several, with `*` for any characters and `?` for a single one."""
@@ -32,20 +29,6 @@ class Scalar:
     module: str
     name: str
     value: float
-    attributes: Mapping[str, str] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Histogram:
-    """One distribution in a `.sca` file.
-
-    Attributes:
-        module: Full path, which starts with the name of the network.
-    """
-
-    module: str
-    name: str
-    values: "Delays"
     attributes: Mapping[str, str] = field(default_factory=dict)
 
 

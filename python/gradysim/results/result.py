@@ -13,7 +13,7 @@ from functools import cached_property
 from typing import Annotated, Any, Literal
 
 from gradysim.notebook import HEIGHT_PX, ReplayView, html_table
-from gradysim.results.delays import Delays, delay_averages, delay_histograms, delay_scalars
+from gradysim.results.delays import Delays, Histogram, delay_averages, delay_histograms, delay_scalars
 from gradysim.results.outcomes import (
     Counts,
     Outcomes,
@@ -23,7 +23,7 @@ from gradysim.results.outcomes import (
     outcome_scalars,
     plain_counts,
 )
-from gradysim.results.quantity import Histogram, Quantity, Scalar, json_object, recorded, scalars_of
+from gradysim.results.quantity import Quantity, Scalar, json_object, recorded, scalars_of
 from gradysim.results.recorder import Vector
 from gradysim.results.result_hash import OF_RUN, result_hash
 from gradysim.results.tracked_variables import tracked_scalars

@@ -14,22 +14,16 @@ from gradysim.results.files import read_run_file
 from gradysim.results.means import Mean, means
 from gradysim.results.omnetpp_reader import read_vectors
 from gradysim.results.outcomes import Outcomes
-from gradysim.results.quantity import Names, name_filter, quantities
-from gradysim.results.result import RunResult
+from gradysim.results.quantity import Names, name_filter
+from gradysim.results.quantity_table import OF_RUN, TAKEN, QuantityTable, column_of, union, variables_of
 from gradysim.results.result_dir import read_results
 from gradysim.results.run_summary import RunSummary
-from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.scenario.errors import ConfigError, unknown_name
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Per = Literal["run", "node", "time"]
-
-OF_RUN = ("config", "mode", "run", "seed")
-"""Columns of each table, and names of variables, in addition to iteration variables."""
-
-_TAKEN = {*quantities(RunResult), "node", "quantity", "time_s", "value", "runs", "mean", "low", "high"}
-"""Names of other columns. An iteration variable with such a name has the column `$mode` and so on."""
 
 
 def runs(directory: str | os.PathLike[str]) -> "Runs":
@@ -40,18 +34,7 @@ def runs(directory: str | os.PathLike[str]) -> "Runs":
     return Runs(read_results(Path(directory)))
 
 
-def variables_of(run: RunSummary) -> dict[str, Any]:
-    """Return the values that distinguish a run, by the names of their columns: `OF_RUN`, then variables."""
-    own = {name: getattr(run, name) for name in OF_RUN}
-    return own | {column_of(name): value for name, value in run.iterations.items()}
-
-
-def column_of(variable: str) -> str:
-    """Return the name of the column of an iteration variable."""
-    return f"${variable}" if variable in _TAKEN else variable
-
-
-class Runs:
+class Runs(QuantityTable):
     """Runs of a study: a sequence of `RunSummary`, with selection by `where` and tables by `columns`.
 
     A notebook shows the table of their means.
@@ -59,17 +42,8 @@ class Runs:
 
     def __init__(self, summaries: Iterable[RunSummary], source: "Runs | None" = None) -> None:
         """Store runs in their order. Files of `source`, of which they are a part, may be temporary."""
-        self._runs = tuple(summaries)
+        super().__init__(summaries)
         self._source = source
-
-    def __len__(self) -> int:
-        return len(self._runs)
-
-    def __iter__(self) -> Iterator[RunSummary]:
-        return iter(self._runs)
-
-    def __getitem__(self, index: int) -> RunSummary:
-        return self._runs[index]
 
     def __repr__(self) -> str:
         configs = list(dict.fromkeys(run.config for run in self))
@@ -78,7 +52,7 @@ class Runs:
     def _repr_html_(self) -> str:
         """Return the means of `means()` as a table, for notebooks."""
         found = self.means()
-        variables = list(dict.fromkeys(name for mean in found for name in mean.iterations))
+        variables = union(mean.iterations for mean in found)
         rows = [
             (
                 mean.config,
@@ -98,13 +72,7 @@ class Runs:
     @property
     def variables(self) -> list[str]:
         """Names of the variables: `OF_RUN`, then the iteration variables of any run."""
-        return list(dict.fromkeys([*OF_RUN, *(name for run in self for name in variables_of(run))]))
-
-    @property
-    def quantities(self) -> list[str]:
-        """Names of the numbers of any run: those of `gradysim means`, then `cpu_s`, `events` and so on."""
-        conditions = {id(run.conditions): run.conditions for run in self}.values()
-        return list(dict.fromkeys(name for each in conditions for name in each.quantities))
+        return union([OF_RUN, *map(variables_of, (runs[0] for runs in self.blocks))])
 
     def values(self, variable: str) -> list[Any]:
         """Return the different values of a variable, in the order of the runs.
@@ -112,11 +80,7 @@ class Runs:
         Raises ConfigError for an unknown variable.
         """
         if variable not in self.variables:
-            raise ConfigError(
-                f"no variable of the runs is called `{variable}`",
-                expected=f"one of {', '.join(self.variables)}",
-                suggestion=nearest(variable, self.variables),
-            )
+            raise unknown_name(f"no variable of the runs is called `{variable}`", variable, self.variables)
         return list(dict.fromkeys(variables_of(run).get(variable) for run in self))
 
     def where(self, **wanted: object) -> "Runs":
@@ -130,12 +94,7 @@ class Runs:
             several = list(value) if isinstance(value, list | tuple | set | range) else [value]
             for each in several:
                 if not any(_is_same(each, other) for other in known):
-                    names = [str(other) for other in known]
-                    raise ConfigError(
-                        f"no run has {variable} = {each}",
-                        expected=f"one of {', '.join(names)}",
-                        suggestion=nearest(str(each), names),
-                    )
+                    raise unknown_name(f"no run has {variable} = {each}", str(each), map(str, known))
             kept = [
                 run
                 for run in kept
@@ -222,7 +181,7 @@ class Runs:
         found = [(run, node) for run in self for node in nodes_of(run)]
         known = dict.fromkeys(name for _, node in found for name in node["tracked_variables"])
         _check(names, known)
-        taken = {*_TAKEN, *self.variables}
+        taken = {*TAKEN, *self.variables}
         chosen = {name: f"${name}" if name in taken else name for name in filter(name_filter(names), known)}
         for run, node in found:
             tracked = node["tracked_variables"]
@@ -250,11 +209,7 @@ def fates_of(run: RunSummary) -> Outcomes:
 def _check(names: Names | None, known: Iterable[str]) -> None:
     for name in names or ():
         if not any(map(name_filter(name), known)):
-            raise ConfigError(
-                f"no quantity is called `{name}`",
-                expected="one of " + ", ".join(known),
-                suggestion=nearest(name, known),
-            )
+            raise unknown_name(f"no quantity is called `{name}`", name, known)
 
 
 def _is_same(wanted: object, value: object) -> bool:

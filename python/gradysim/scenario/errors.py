@@ -297,6 +297,12 @@ class ArgumentNames:
 OF_SCRIPT = ArgumentNames()
 
 
+def unknown_name(problem: str, name: str, known: Iterable[str]) -> ConfigError:
+    """Return the error of a name that is not known. It lists the known ones, and suggests the nearest."""
+    names = list(known)
+    return ConfigError(problem, expected=f"one of {', '.join(names)}", suggestion=nearest(name, names))
+
+
 def nearest(name: str, candidates: Iterable[str], *, strict: bool = False) -> str:
     """Return the candidate most similar to `name`, or the only one that contains it, or "".
 

@@ -3,7 +3,7 @@ from io import StringIO
 import pytest
 from rich.console import Console
 
-from gradysim.cli.means import means_table, write_csv
+from gradysim.cli.means import means_table, write_means
 from gradysim.results.means import Mean
 
 FAST = Mean("Study", "integrated", {"jitter": 10, "0": "a"}, "uavs[*] heard", 10, 1234.5, 1234.25, 1234.75)
@@ -56,7 +56,7 @@ def test_names_and_values_are_no_markup(name: str) -> None:
 
 def test_csv_has_all_digits() -> None:
     text = StringIO()
-    write_csv([FAST, SLOW, NONE], text)
+    write_means([FAST, SLOW, NONE], text)
     assert text.getvalue().splitlines() == [
         "config,mode,jitter,0,quantity,runs,mean,low,high,left_out",
         "Study,integrated,10,a,uavs[*] heard,10,1234.5,1234.25,1234.75,",
@@ -67,14 +67,16 @@ def test_csv_has_all_digits() -> None:
 
 def test_lines_of_csv_end_as_other_tools_expect_them() -> None:
     text = StringIO(newline="")
-    write_csv([SLOW], text)
+    write_means([SLOW], text)
     assert text.getvalue().count("\n") == 2
     assert "\r" not in text.getvalue()
 
 
 def test_a_variable_called_as_another_column_has_a_heading_of_its_own_in_csv() -> None:
     text = StringIO()
-    write_csv([Mean("Study", "integrated", {"mode": "b", "x": 1}, "uavs[*] heard", 1, 2.0, None, None)], text)
+    write_means(
+        [Mean("Study", "integrated", {"mode": "b", "x": 1}, "uavs[*] heard", 1, 2.0, None, None)], text
+    )
     assert text.getvalue().splitlines()[0] == "config,mode,$mode,x,quantity,runs,mean,low,high,left_out"
 
 

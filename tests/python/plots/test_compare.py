@@ -3,7 +3,7 @@ from collections.abc import Mapping
 import pytest
 from matplotlib.axes import Axes
 
-from gradysim.plots.compare import changes_height_in, changes_numbers, draw_changes
+from gradysim.plots.compare import changes_numbers, draw_changes
 from gradysim.results.compare import Change
 from gradysim.results.paired import Estimate
 from gradysim.scenario.errors import ConfigError
@@ -53,8 +53,8 @@ def test_what_is_drawn(axes: Axes) -> None:
 def test_many_quantities_need_a_higher_figure() -> None:
     few = changes_numbers([CHANGES[0]], "a", "b")
     many = changes_numbers([change(str(index), 1, 1, {}) for index in range(30)], "a", "b")
-    assert changes_height_in(few) == 2.4
-    assert changes_height_in(many) > 5
+    assert few.height_in == 2.4
+    assert many.height_in > 5
 
 
 def test_nothing_to_draw() -> None:

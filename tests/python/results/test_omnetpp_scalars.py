@@ -2,9 +2,9 @@ import math
 
 import pytest
 
-from gradysim.results.delays import Delays, constant_delays
+from gradysim.results.delays import Delays, Histogram, constant_delays
 from gradysim.results.omnetpp import RunIdentity, write_scalar_file
-from gradysim.results.quantity import Histogram, Scalar
+from gradysim.results.quantity import Scalar
 from python.sqlite_rows import rows_of
 
 IDENTITY = RunIdentity("A-0-20261123-05:00:00-7", {}, {}, ())
