@@ -1,5 +1,7 @@
 """Flights without autopilots, which log their calls."""
 
+from gradysim.sitl.flight_orders import give_order
+
 
 class PlayedPilot:
     """Logs its commands."""
@@ -32,8 +34,8 @@ class PlayedFlights:
         assert node_id == 0
         return (self.time_s, 0.0, 5.0)
 
-    def pilot(self, node_id):
-        return self.pilots[node_id]
+    def give_order(self, command, node_id):
+        give_order(command, node_id, (0, 0, 0), self.pilots[node_id])
 
     def close(self):
         self.diary.append("close")

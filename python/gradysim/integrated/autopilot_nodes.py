@@ -5,6 +5,7 @@ import weakref
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
+from gradysim.encapsulator.autopilots import flights_of
 from gradysim.protocol.defaults import UPDATE_S
 from gradysim.protocol.messages.mobility import (
     GotoCoordsMobilityCommand,
@@ -13,8 +14,6 @@ from gradysim.protocol.messages.mobility import (
 )
 from gradysim.protocol.position import Position
 from gradysim.scenario.scenario import Scenario
-from gradysim.sitl.flight_orders import give_order
-from gradysim.sitl.scenario_autopilots import flights_of
 
 if TYPE_CHECKING:
     from gradysim._netsim import Network, Node
@@ -29,7 +28,6 @@ class AutopilotNodes:
     def __init__(self, scenario: Scenario, network: "Network", nodes: Sequence["Node"]) -> None:
         """Create the flights without starting them. Raise ConfigError if a node cannot be flown."""
         self._network = network
-        self._reference = scenario.reference_coordinates
         self._flights = flights_of(scenario)
         self._nodes = [node for node in nodes if self._flights is not None and node.id in self._flights.ids]
         self._updates = 0
@@ -47,7 +45,7 @@ class AutopilotNodes:
         flights = self._flights
         if flights is None or node_id not in flights.ids:
             return None
-        return lambda command: give_order(command, node_id, self._reference, flights.pilot(node_id))
+        return lambda command: flights.give_order(command, node_id)
 
     def initialize(self) -> None:
         """Schedule the first update, after the protocols have started."""

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from gradysim.encapsulator.autopilots import check_autopilots
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import errors_at, settings_by_target, text_of
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
@@ -19,7 +20,6 @@ from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
-from gradysim.sitl.scenario_autopilots import check_autopilots
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig

@@ -4,6 +4,7 @@ import dataclasses
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from gradysim.encapsulator.autopilots import flights_of
 from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
 from gradysim.motion.flight_controller import Airframe
@@ -31,8 +32,6 @@ from gradysim.simulator.handler.registry import handlers_by_label
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.node import Node
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration, Simulator
-from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
-from gradysim.sitl.scenario_autopilots import flights_of
 
 
 def build_simulation(
@@ -95,7 +94,7 @@ def build_simulation(
 
     simulator = builder.prepare_nodes(prepare).build()
     simulator.writes_log = False
-    if isinstance(mobility, AutopilotMobilityHandler):
+    if isinstance(mobility, QuadcopterMobilityHandler):
         mobility.take_off()
     return simulator, ledger
 
@@ -128,10 +127,8 @@ def mobility_handler(scenario: Scenario, *, skips_idle: bool = False) -> Massles
     quadcopters = {spec.id: airframe_of(spec) for spec in scenario.nodes if spec.is_quadcopter}
     wind = Wind(**scenario.wind)
     mobility: MasslessMobilityHandler
-    if flights is not None:  # autopilots and quadcopters fly in steps of 10 ms, in both modes
-        mobility = AutopilotMobilityHandler(configuration, flights, quadcopters, wind)
-    elif quadcopters:
-        mobility = QuadcopterMobilityHandler(configuration, quadcopters, wind)
+    if flights is not None or quadcopters:  # they fly in steps of 10 ms, in both modes
+        mobility = QuadcopterMobilityHandler(configuration, quadcopters, wind, flights)
     else:
         configuration.update_rate = update_rate_s(scenario.nodes)
         mobility = (IdleSkippingMobilityHandler if skips_idle else MasslessMobilityHandler)(configuration)

@@ -9,9 +9,11 @@ from typing import Any
 
 from gradysim.motion.quadcopter import HOVER_THRUST, THRUST_EXPO, Quadcopter
 from gradysim.protocol.defaults import UPDATE_S
+from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.position import Position
 from gradysim.sitl.autopilot_node import AutopilotNode, check_start, ground_temperature, wind_mps
 from gradysim.sitl.fleet import Fleet
+from gradysim.sitl.flight_orders import give_order
 from gradysim.sitl.frame import autopilots_place, home_of
 from gradysim.sitl.lock_step import RATE_HZ, LockStepAutopilot, LockStepGroup, VehicleClockLoop
 from gradysim.sitl.mavlink import MavlinkLink, Message
@@ -188,6 +190,10 @@ class Flights:
     def pilot(self, node_id: int) -> Pilot:
         """Return the pilot of a node. Commands reach the autopilot before its next step."""
         return self._flights[node_id].pilot
+
+    def give_order(self, command: MobilityCommand, node_id: int) -> None:
+        """Carry out a mobility command. Raise as `give_order` of `gradysim.sitl.flight_orders`."""
+        give_order(command, node_id, self._reference, self.pilot(node_id))
 
     def battery_percent(self, node_id: int) -> float | None:
         """Return the remaining battery in percent, or None if the autopilot does not know it."""

@@ -28,15 +28,13 @@ def check_autopilots(scenario: Scenario) -> None:
             _check(spec, spec.autopilot, scenario.reference_coordinates)
 
 
-def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights | None":
-    """Return the flights of all nodes with an autopilot, not started; None without such nodes.
+def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights":
+    """Return the flights of all nodes with an autopilot, not started.
 
     `on_text` is called with the name of a node and each text of its autopilot. ConfigError as
     `check_autopilots`.
     """
     check_autopilots(scenario)
-    if all(spec.autopilot is None for spec in scenario.nodes):
-        return None
     from gradysim.sitl.flights import Flights
 
     nodes = [

@@ -7,13 +7,9 @@ import pytest
 
 from gradysim.scenario.errors import ConfigError
 from gradysim.sitl.mavlink import load_dialect
-from gradysim.sitl.scenario_autopilots import check_autopilots, flights_of
+from gradysim.sitl.scenario_autopilots import check_autopilots
 
 TESTED = "class Tested(Quiet): pass"
-
-
-def test_without_such_nodes_there_are_no_flights(make_scenario):
-    assert flights_of(make_scenario()) is None
 
 
 @pytest.mark.parametrize(

@@ -7,20 +7,21 @@ from functools import partial
 from typing import Any
 
 from gradysim.protocol.defaults import UPDATE_S
+from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.simulator.event import EventLoop
 from gradysim.simulator.handler.mobility.massless import MasslessMobilityConfiguration
+from gradysim.simulator.handler.mobility.quadcopter import QuadcopterMobilityHandler
 from gradysim.simulator.log import label_node
 from gradysim.simulator.node import Node
 from gradysim.sitl.ardupilot_mobility.configuration import ArdupilotMobilityConfiguration
 from gradysim.sitl.ardupilot_mobility.report import NodeReport
-from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
 from gradysim.sitl.autopilot_node import AutopilotNode
 from gradysim.sitl.flights import Flights
 
 _logger = logging.getLogger(__name__)
 
 
-class LockStep(AutopilotMobilityHandler):
+class LockStep:
     """All vehicles of a simulation, in lock-step with it. Failures of autopilots in flight end it."""
 
     def __init__(
@@ -31,10 +32,11 @@ class LockStep(AutopilotMobilityHandler):
     ) -> None:
         """Create the vehicles of the nodes."""
         self._telemetry_s = configuration.update_rate
+        self._event_loop = event_loop
         self._begin_s = event_loop.current_time
         self._reports: dict[int, NodeReport] = {}
         level = logging.INFO if configuration.uav_api_log_console else logging.DEBUG
-        flights = Flights(
+        self._flights = Flights(
             [
                 AutopilotNode(
                     id=node.id,
@@ -55,24 +57,26 @@ class LockStep(AutopilotMobilityHandler):
         # An integer number of updates per telemetry message.
         update_s = self._telemetry_s / math.ceil(self._telemetry_s / UPDATE_S - 1e-9)
         reference = configuration.reference_coordinates
-        super().__init__(
-            MasslessMobilityConfiguration(update_rate=update_s, reference_coordinates=reference), flights
-        )
-        self.inject(event_loop)
+        motion = MasslessMobilityConfiguration(update_rate=update_s, reference_coordinates=reference)
+        self._mobility = QuadcopterMobilityHandler(motion, flights=self._flights)
+        self._mobility.inject(event_loop)
         for node in nodes.values():
-            self.configure_node(node.id, telemetry_interval=self._telemetry_s)
-            self.register_node(node)
+            self._mobility.configure_node(node.id, telemetry_interval=self._telemetry_s)
+            self._mobility.register_node(node)
 
     def begin(self) -> None:
         """Start the autopilots and fly all nodes to their initial positions."""
-        self.take_off()
-        for identifier in self.nodes:
+        self._mobility.take_off()
+        for identifier in self._mobility.nodes:
             self._reports[identifier] = NodeReport(battery_start=self._flights.battery_percent(identifier))
-        self.initialize()
+        self._mobility.initialize()
+
+    def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
+        """Let the autopilot of a node carry out a command. Raise as `give_order`."""
+        self._mobility.handle_command(command, node)
 
     def end(self) -> Mapping[int, NodeReport]:
         """Return the reports. Telemetries are never dropped, and clocks have no error."""
-        assert self._event_loop is not None
         duration_s = self._event_loop.current_time - self._begin_s
         telemetries = math.floor(duration_s / self._telemetry_s + 1e-6)
         for identifier, report in self._reports.items():

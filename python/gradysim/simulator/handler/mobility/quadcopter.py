@@ -1,10 +1,11 @@
-"""Mobility handler for massless vehicles and quadcopters, which have inertia."""
+"""Mobility handler for vehicles with inertia: quadcopters, and vehicles that autopilots fly."""
 
 import math
+import weakref
 from collections.abc import Mapping
 from functools import partial
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gradysim.motion.flight_controller import STEP_S, Airframe, FlightController
 from gradysim.motion.wind import Wind, WindAtVehicle
@@ -17,9 +18,12 @@ from gradysim.simulator.handler.mobility.massless import (
 )
 from gradysim.simulator.node import Node
 
+if TYPE_CHECKING:
+    from gradysim.encapsulator.autopilots import Flights
+
 
 class QuadcopterMobilityHandler(MasslessMobilityHandler):
-    """Flies some nodes as quadcopters with a built-in controller. The others move as usual.
+    """Flies some nodes as quadcopters: by a built-in controller, or by autopilots. Others move as usual.
 
     A quadcopter is always one update ahead: after the telemetry of an update it flies to the next one. So a
     command takes effect at the first update after it, or at once if it is sent by `handle_telemetry`.
@@ -30,10 +34,18 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
         configuration: MasslessMobilityConfiguration | None = None,
         quadcopters: Mapping[int, Airframe] = MappingProxyType({}),
         wind: Wind | None = None,
+        flights: "Flights | None" = None,
     ) -> None:
-        """Create the handler. `quadcopters` are the vehicles by the ids of nodes, and `wind` blows on them.
+        """Create the handler.
 
-        Raise ValueError if there are quadcopters, and the update_rate is not a multiple of 10 ms.
+        Args:
+            configuration: Motion of all nodes.
+            quadcopters: The vehicles with the built-in controller, by the ids of nodes.
+            wind: Wind that blows on these vehicles.
+            flights: The vehicles with autopilots. They start with `take_off` and end with the simulation.
+
+        Raises:
+            ValueError: There are quadcopters, and the update_rate is not a multiple of 10 ms.
         """
         super().__init__(configuration)
         self._quadcopters = dict(quadcopters)
@@ -47,6 +59,16 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
             )
         for node_id in self._quadcopters:
             self.paths[node_id] = partial(self._position_of, node_id)
+        self._flights = flights
+        if flights is not None:
+            for node_id in flights.ids:
+                self.paths[node_id] = partial(_position_of, flights, node_id)
+            weakref.finalize(self, flights.close)  # If the simulation is not finished.
+
+    def take_off(self) -> None:
+        """Start the autopilots. Raise SitlError if one does not start or a step of its flight fails."""
+        if self._flights is not None:
+            self._flights.begin()
 
     def inject(self, event_loop: EventLoop) -> None:
         """Take the event loop of a new simulation."""
@@ -69,6 +91,16 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
         """Schedule the first flight, after the protocols have started."""
         super().initialize()
         self._schedule_flight()
+
+    def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
+        """Carry out a command, at once if the node has an autopilot.
+
+        Raise MasslessMobilityException if it is not valid, SitlError if the autopilot has ended.
+        """
+        if self._flights is not None and node.id in self._flights.ids:
+            self._flights.give_order(command, node.id)
+        else:
+            super().handle_command(command, node)
 
     def obey(self, command: MobilityCommand, node: Node[Any]) -> None:
         """Carry out a valid command now."""
@@ -100,3 +132,15 @@ class QuadcopterMobilityHandler(MasslessMobilityHandler):
         for vehicle in self._flown.values():
             for _ in range(self._steps):
                 vehicle.step()
+        if self._flights is not None:
+            self._flights.advance_to(self._times.time_of(self._updates))
+
+    def finalize(self) -> None:
+        """End the autopilots."""
+        super().finalize()
+        if self._flights is not None:
+            self._flights.close()
+
+
+def _position_of(flights: "Flights", node_id: int, _time_s: float) -> Position:
+    return flights.position(node_id)

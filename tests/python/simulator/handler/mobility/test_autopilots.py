@@ -6,9 +6,9 @@ import pytest
 
 from gradysim.protocol.messages.mobility import GotoCoordsMobilityCommand
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MobilityException
+from gradysim.simulator.handler.mobility.quadcopter import QuadcopterMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler
 from gradysim.simulator.simulation import SimulationBuilder, SimulationConfiguration
-from gradysim.sitl.autopilot_mobility import AutopilotMobilityHandler
 from python.played_flights import PlayedFlights
 from python.quiet_protocol import Quiet
 
@@ -31,7 +31,7 @@ def flights():
 
 
 def built(flights, protocol=Tested):
-    handler = AutopilotMobilityHandler(MasslessMobilityConfiguration(update_rate=0.1), flights)
+    handler = QuadcopterMobilityHandler(MasslessMobilityConfiguration(update_rate=0.1), flights=flights)
     builder = SimulationBuilder(SimulationConfiguration(duration=0.5, execution_logging=False))
     builder.add_handler(TimerHandler()).add_handler(handler)
     builder.add_node(protocol, (9, 9, 9))
