@@ -8,7 +8,7 @@ from pathlib import Path
 from gradysim.scenario.expressions import ParameterContext, parse_value
 from gradysim.scenario.functions import Value
 from gradysim.scenario.ini import read_ini
-from gradysim.scenario.lookup import is_option
+from gradysim.scenario.options import is_option
 from gradysim.scenario.patterns import compile_pattern
 from gradysim.scenario.runs import numbered_runs
 from gradysim.scenario.sections import entries_in_order, search_order

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.scenario.errors import ConfigError, is_fully_qualified, nearest_file
 from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS, written_for
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.units import UNITS
+from gradysim.scenario.values import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim

@@ -22,10 +22,10 @@ from gradysim.scenario.keys import (
     written_for,
 )
 from gradysim.scenario.lint import Finding, by_line
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import ReadBy
+from gradysim.scenario.values import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig

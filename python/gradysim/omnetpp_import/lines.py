@@ -30,9 +30,16 @@ from gradysim.protocol.defaults import MOST_INTERFACES
 from gradysim.scenario.errors import BadValue
 from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.keys import MOBILITY_KEYS, NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN
-from gradysim.scenario.lookup import is_ignored, is_option
+from gradysim.scenario.options import (
+    NETWORK,
+    OPTIONS,
+    REFUSED_OPTIONS,
+    SECTION_OPTIONS,
+    is_ignored,
+    is_option,
+)
 from gradysim.scenario.patterns import Pattern, compile_pattern
-from gradysim.scenario.schema import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS, Key
+from gradysim.scenario.schema import Key
 
 
 class LineTranslator:

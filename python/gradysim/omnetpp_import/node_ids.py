@@ -9,7 +9,8 @@ from gradysim.omnetpp_import.outcome import Action, Outcome, not_modelled
 from gradysim.scenario.errors import ErrorCollector
 from gradysim.scenario.groups import find_groups
 from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.lookup import Lookup, SettingReader
+from gradysim.scenario.lines import Lines
+from gradysim.scenario.values import SettingReader
 
 _DESTINATIONS, _HEARS = ".protocol.destinations", ".protocol.hears"
 
@@ -64,7 +65,7 @@ def _ids(lines: Sequence[Entry]) -> dict[str, int]:
     Nodes are left out behind a group whose size differs between runs, as their ids differ, too.
     """
     ids: dict[str, int] = {}
-    for group in find_groups(Lookup(lines), SettingReader(), ErrorCollector()):
+    for group in find_groups(Lines(lines), SettingReader(), ErrorCollector()):
         if group.has_wrong_size:
             break
         for name in group.node_names():

@@ -15,7 +15,7 @@ from gradysim.omnetpp_import.node_ids import name_by_ids
 from gradysim.omnetpp_import.outcome import Action, Outcome
 from gradysim.omnetpp_import.tables import CLASS_TO_WRITE
 from gradysim.scenario.ini import GENERAL, Entry, IniFile, read_ini
-from gradysim.scenario.schema import NETWORK
+from gradysim.scenario.options import NETWORK
 from gradysim.scenario.sections import config_names, search_order
 from gradysim.scenario.sweep import PREDEFINED
 

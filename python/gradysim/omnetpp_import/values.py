@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.expressions import ParameterContext
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.lookup import read_scalar
 from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.sweep import name_iterations
+from gradysim.scenario.values import read_scalar
 
 
 def wrong_value(entry: Entry, key: str, text: str, kinds: Mapping[str, ParameterType]) -> str:

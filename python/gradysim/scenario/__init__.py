@@ -4,10 +4,9 @@
 
     ini, sections                the text as sections and entries, and the sections of a configuration
     sweep, combinations, runs    iteration variables, and the runs of all their values
-    lookup, groups               the entries in force and their values, and the groups of nodes
-    unknown_keys                 keys that match nothing
-    protocols, parameters        the classes of the nodes and their parameters
-    nodes, interfaces, obstacles the parts of a Scenario
+    lines, groups, resolution    the rows of a run: which line sets which parameter
+    unknown_keys                 keys that match nothing: lines without a row
+    nodes, interfaces, obstacles the parts of a Scenario, built from rows
     networks, coverage           the networks of runs, and which of them are checked before the first run
     lint                         settings that are valid but probably not intended
 
@@ -16,10 +15,10 @@
 
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.load import load_scenarios
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
+from gradysim.scenario.values import Setting
 
 __all__ = [
     "CommunicationMediumSpec",

@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.lookup import is_ignored, is_option
+from gradysim.scenario.options import is_ignored, is_option
 from gradysim.scenario.runs import NumberedRuns
 from gradysim.scenario.sweep import (
     LABELS,

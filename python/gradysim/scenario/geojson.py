@@ -31,7 +31,7 @@ from gradysim.scenario.errors import (
     nearest_file,
 )
 from gradysim.scenario.keys import DEFAULT_MATERIAL, MATERIALS, OBSTACLE_FILE
-from gradysim.scenario.lookup import Lookup, SettingReader
+from gradysim.scenario.lines import Row
 from gradysim.scenario.obstacles import (
     Corner,
     ObstacleSpec,
@@ -39,9 +39,9 @@ from gradysim.scenario.obstacles import (
     crossing_sides,
     encloses_nothing,
     misplaced_ring,
-    read_setting,
 )
 from gradysim.scenario.regular_files import check_regular
+from gradysim.scenario.values import SettingReader
 
 _IF_IN_METERS = (
     "if they are x and y of the scene in meters, expected"
@@ -65,21 +65,21 @@ class _BadGeojsonError(ValueError):
 
 
 def read_obstacle_files(
-    lookup: Lookup, settings: SettingReader, reference: Position | None
+    row: Row | None, settings: SettingReader, reference: Position | None
 ) -> dict[Path, tuple[ObstacleSpec, ...]]:
     """Return the obstacles of the file that `environment.obstacles` names, by file; {} if it names none.
 
     Args:
-        lookup: Finds the entry.
+        row: The row of that parameter.
         settings: Reads its value.
         reference: Latitude and longitude (degrees) and altitude (m) of the origin, if the scenario has them.
 
     Raises:
         ConfigError: The file is missing, or features of it are wrong; all of these are reported.
     """
-    setting = read_setting(lookup, settings, OBSTACLE_FILE, OBSTACLE_FILE.path)
-    if setting is None:
+    if row is None or row.line.is_default:
         return {}
+    setting = settings.setting(row.line.entry, row.key.kind, row.path)
     path, source = str(setting.value), setting.source
     file = source.file.parent / path
     try:

@@ -3,7 +3,7 @@
 Interfaces with the same entries in force share one InterfaceSpec, also those of one node.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from gradysim.scenario.errors import ConfigError, ErrorCollector
@@ -15,111 +15,117 @@ from gradysim.scenario.keys import (
     CHANNEL_NUMBER,
     IEEE802154,
     INTERFACE_TYPENAME,
-    NUM_WLAN_INTERFACES,
     OF_802154,
     WLAN_KEYS,
     at_interface,
 )
-from gradysim.scenario.lookup import Candidates, Found, Lookup, SettingReader, read_struct
+from gradysim.scenario.lines import Row
 from gradysim.scenario.node_spec import STRUCTS, InterfaceSpec
 from gradysim.scenario.parameter_types import BAND, CHANNELS
+from gradysim.scenario.resolution import NodeKind, Resolution
 from gradysim.scenario.schema import Key
+from gradysim.scenario.values import SettingReader, read_struct
 
+Rows = Mapping[Key, Row]
+"""Of one interface."""
 
-def interface_count(name: str, lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> int:
-    """Return the number of interfaces of a node. `errors` takes the error of a bad number."""
-    found = lookup.first(name, NUM_WLAN_INTERFACES.path)
-    if found is not None and not found.is_default:
-        with errors.collecting():
-            path = f"{name}.{NUM_WLAN_INTERFACES.path}"
-            return int(settings.scalar(found.entry, NUM_WLAN_INTERFACES.kind, path))
-    return 1
+_KEYS = frozenset(WLAN_KEYS)
 
 
 class InterfaceBuilder:
     """Makes the interfaces of nodes."""
 
-    def __init__(self, lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> None:
+    def __init__(self, resolution: Resolution, settings: SettingReader, errors: ErrorCollector) -> None:
         """Read values with `settings`; `errors` takes the errors."""
-        self._lookup = lookup
         self._settings = settings
         self._errors = errors
-        self._keys: list[list[tuple[Key, Candidates]]] = []  # of each interface: those that some entry sets
         self._known: dict[object, InterfaceSpec] = {}
+        self._resolution = resolution
 
-    def interfaces(self, node: str, count: int) -> tuple[InterfaceSpec, ...]:
-        """Return the `count` interfaces of that node."""
-        return tuple(self._interface(node, index, count) for index in range(count))
+    def interfaces(self, node: str, kind: NodeKind) -> tuple[InterfaceSpec, ...]:
+        """Return the interfaces of a node."""
+        rows: list[list[Row]] = [[] for _ in range(kind.interface_count)]
+        for row in kind.rows.values():
+            if row.key in _KEYS:
+                rows[int(row.path[len("wlan[") :].partition("]")[0])].append(row)
+        return tuple(self._interface(node, index, of_one) for index, of_one in enumerate(rows))
 
-    def _interface(self, node: str, index: int, count: int) -> InterfaceSpec:
-        while len(self._keys) <= index:
-            paths = ((key, at_interface(key.path, len(self._keys))) for key in WLAN_KEYS)
-            self._keys.append(
-                [(key, candidates) for key, path in paths if (candidates := self._lookup.candidates(path))]
-            )
-        in_force = [(key, candidates.first(node)) for key, candidates in self._keys[index]]
-        found = {key: entry for key, entry in in_force if entry is not None}
-        own = (node, index) if any(entry.differs for entry in found.values()) else None
-        known = (own, *((key.path, entry) for key, entry in found.items()))
+    def _interface(self, node: str, index: int, rows: list[Row]) -> InterfaceSpec:
+        own = (node, index) if any(row.line.differs for row in rows) else None
+        known = (own, *((row.key, row.line) for row in rows))
         spec = self._known.get(known)
         if spec is None:
-
-            def path_of(key: Key) -> str:
-                return f"{node}.{at_interface(key.path, index)}"
-
-            try:
-                is_802154 = self._is_802154(found)
-                in_band = _of_802154(found) if is_802154 else self._in_its_band(found, path_of)
-            except ConfigError as error:  # the numbers of channels have no meaning then
-                self._errors.add(error)
-                is_802154, in_band = False, {key: found[key] for key in found if key != CHANNEL_NUMBER}
-            errors = ErrorCollector()
-            structs = {
-                struct: read_struct(struct, in_band, self._settings, path_of, errors) for struct in STRUCTS
-            }
-            channel = found.get(CHANNEL_NUMBER)
-            for of_field in errors.errors:
-                is_of_channel = channel is not None and channel.entry.source == of_field.source
-                if is_of_channel and self._has_typenames():
-                    of_field = _of_one_kind_only(of_field, node, index, count, is_802154)
-                self._errors.add(of_field)
-            spec = self._known[known] = InterfaceSpec(**structs, range_sets_power=_range_comes_first(found))
+            spec = self._known[known] = self._made(node, index, {row.key: row for row in rows})
         return spec
+
+    def _made(self, node: str, index: int, by_key: Rows) -> InterfaceSpec:
+        prefix = f"{node}."
+        try:
+            is_802154 = self._is_802154(by_key)
+            rows = _of_802154(by_key) if is_802154 else self._in_its_band(by_key, prefix)
+        except ConfigError as error:  # the numbers of channels have no meaning then
+            self._errors.add(error)
+            is_802154, rows = False, _without(by_key, CHANNEL_NUMBER)
+        errors = ErrorCollector()
+        structs = {struct: read_struct(struct, rows, self._settings, errors, prefix) for struct in STRUCTS}
+        channel = by_key.get(CHANNEL_NUMBER)
+        for of_field in errors.errors:
+            is_of_channel = channel is not None and channel.line.entry.source == of_field.source
+            if is_of_channel and self._has_typenames():
+                of_field = self._of_one_kind_only(of_field, node, index, is_802154)
+            self._errors.add(of_field)
+        return InterfaceSpec(**structs, range_sets_power=_range_comes_first(by_key.values()))
 
     def _has_typenames(self) -> bool:
         """Return whether there may be interfaces of both kinds."""
-        return bool(self._lookup.candidates(INTERFACE_TYPENAME.path))
+        return any(row.key == INTERFACE_TYPENAME for row in self._resolution.rows())
 
-    def _is_802154(self, found: Mapping[Key, Found]) -> bool:
-        chosen = found.get(INTERFACE_TYPENAME)
-        if chosen is None or chosen.is_default:
+    def _is_802154(self, by_key: Rows) -> bool:
+        chosen = by_key.get(INTERFACE_TYPENAME)
+        if chosen is None or chosen.line.is_default:
             return False
-        return self._settings.scalar(chosen.entry, INTERFACE_TYPENAME.kind) in IEEE802154.names
+        return self._settings.scalar(chosen.line.entry, INTERFACE_TYPENAME.kind) in IEEE802154.names
 
-    def _in_its_band(self, found: Mapping[Key, Found], path_of: Callable[[Key], str]) -> Mapping[Key, Found]:
+    def _in_its_band(self, by_key: Rows, prefix: str) -> Sequence[Row]:
         """Read the number of a channel as one of the band that is set with it.
 
         A band has no further effect if a channel or its center is set.
         """
-        written = {key: entry for key, entry in found.items() if not entry.is_default}
+        written = {key: row for key, row in by_key.items() if not row.line.is_default}
         band = written.get(BAND_NAME)
-        channel, centre = written.get(CHANNEL_NUMBER), written.get(CENTER_FREQUENCY)
-        if band is None or (channel is None and centre is None):
-            return found
-        name = str(self._settings.scalar(band.entry, BAND, path_of(BAND_NAME)))
-        in_band = {key: entry for key, entry in found.items() if key not in (BAND_NAME, CHANNEL_NUMBER)}
+        channel, center = written.get(CHANNEL_NUMBER), written.get(CENTER_FREQUENCY)
+        if band is None or (channel is None and center is None):
+            return list(by_key.values())
+        name = str(self._settings.scalar(band.line.entry, BAND, prefix + band.path))
+        rows = _without(by_key, BAND_NAME, CHANNEL_NUMBER)
         if channel is not None:
-            in_band[replace(CHANNEL_NUMBER, kind=CHANNELS[name])] = channel
-        if centre is None or (channel is not None and channel.order < centre.order):
-            in_band[BAND_OF_CHANNEL] = band
-        elif not centre.overrides(band):
-            in_band[BAND_BESIDE_FREQUENCY] = band
-        return in_band
+            rows.append(channel._replace(key=replace(CHANNEL_NUMBER, kind=CHANNELS[name])))
+        if center is None or (channel is not None and channel.line.order < center.line.order):
+            rows.append(band._replace(key=BAND_OF_CHANNEL))
+        elif not center.line.overrides(band.line):
+            rows.append(band._replace(key=BAND_BESIDE_FREQUENCY))
+        return rows
+
+    def _of_one_kind_only(self, error: ConfigError, node: str, index: int, is_802154: bool) -> ConfigError:
+        """Add a hint to an error of a channel: the standards number them differently, `**` matches both."""
+        if _is_about_this_alone(error.key, node, index, self._resolution.kinds[node].interface_count):
+            return error
+        kind, other = ("802.15.4", "802.11") if is_802154 else ("802.11", "802.15.4")
+        group, bracket, _ = node.partition("[")
+        line = f"*.{group}{bracket and '[*]'}.{at_interface(CHANNEL_NUMBER.path, index)} = default"
+        hint = (
+            f", since wlan[{index}] of {node} is of {kind}; the line `{line}` before it leaves it to {other}"
+        )
+        return error.with_hint(hint)
 
 
-def _of_802154(found: Mapping[Key, Found]) -> Mapping[Key, Found]:
+def _without(by_key: Rows, *keys: Key) -> list[Row]:
+    return [row for key, row in by_key.items() if key not in keys]
+
+
+def _of_802154(by_key: Rows) -> Sequence[Row]:
     """Read the number of a channel as one of 802.15.4, which has one band."""
-    return {OF_802154.get(key, key): entry for key, entry in found.items()}
+    return [row._replace(key=OF_802154.get(key, key)) for key, row in by_key.items()]
 
 
 def _is_about_this_alone(key: str, node: str, index: int, count: int) -> bool:
@@ -128,19 +134,8 @@ def _is_about_this_alone(key: str, node: str, index: int, count: int) -> bool:
     return key.startswith((f"*.{group}.", f"*.{group}[")) and (count == 1 or f".wlan[{index}]." in key)
 
 
-def _of_one_kind_only(error: ConfigError, node: str, index: int, count: int, is_802154: bool) -> ConfigError:
-    """Add a hint to an error of a channel: the standards number them differently, `**` matches both."""
-    if _is_about_this_alone(error.key, node, index, count):
-        return error
-    kind, other = ("802.15.4", "802.11") if is_802154 else ("802.11", "802.15.4")
-    group, bracket, _ = node.partition("[")
-    line = f"*.{group}{bracket and '[*]'}.{at_interface(CHANNEL_NUMBER.path, index)} = default"
-    hint = f", since wlan[{index}] of {node} is of {kind}; the line `{line}` before it leaves it to {other}"
-    return error.with_hint(hint)
-
-
-def _range_comes_first(found: Mapping[Key, Found]) -> bool:
+def _range_comes_first(rows: Iterable[Row]) -> bool:
     """Return whether a range is set, and not after a power."""
-    orders = {key.field: entry.order for key, entry in found.items() if not entry.is_default}
+    orders = {row.key.field: row.line.order for row in rows if not row.line.is_default}
     at = orders.get("communication_range_m")
     return at is not None and at <= orders.get("tx_power_w", at)

@@ -16,8 +16,9 @@ from gradysim.scenario.keys import (
     PROTOCOL_PARAMETER,
 )
 from gradysim.scenario.native_protocols import NativeProtocol
+from gradysim.scenario.options import OPTION_KEYS
 from gradysim.scenario.parameters import parameters_of
-from gradysim.scenario.schema import OPTION_KEYS, Key
+from gradysim.scenario.schema import Key
 
 _INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
 

@@ -17,8 +17,8 @@ from gradysim.scenario.keys import (
     STATIONARY,
     has_radios,
 )
-from gradysim.scenario.lookup import is_ignored, is_option
 from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.options import is_ignored, is_option
 from gradysim.scenario.parameters import annotations_of, unit_of
 from gradysim.scenario.patterns import Pattern, PatternIndex, compile_pattern
 from gradysim.scenario.runs import UnreadVariables

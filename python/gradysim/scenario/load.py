@@ -9,8 +9,15 @@ from gradysim.notebook import html_table
 from gradysim.scenario.coverage import Coverage
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector
 from gradysim.scenario.ini import Entry, read_ini, read_overrides
-from gradysim.scenario.lookup import is_ignored, is_option, network_name, options_in_force, read_scalar
 from gradysim.scenario.networks import Networks
+from gradysim.scenario.options import (
+    OPTIONS,
+    check_option,
+    is_ignored,
+    is_option,
+    network_name,
+    options_in_force,
+)
 from gradysim.scenario.parameter_types import Scalar
 from gradysim.scenario.runs import (
     NumberedRun,
@@ -23,7 +30,6 @@ from gradysim.scenario.runs import (
     whole_seed,
 )
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.schema import OPTIONS
 from gradysim.scenario.sections import check_not_abstract, entries_in_order, search_order, what_to_run_instead
 from gradysim.scenario.sweep import (
     REPETITION,
@@ -38,7 +44,8 @@ from gradysim.scenario.sweep import (
     variables_in,
     with_labels,
 )
-from gradysim.scenario.unknown_keys import NoSuchNodeError, check_option
+from gradysim.scenario.unknown_keys import NoSuchNodeError
+from gradysim.scenario.values import read_scalar
 
 _READ_IN_EACH_RUN = ("sim-time-limit", "vector-record-interval", "description")
 """Options that are fields of a Scenario."""

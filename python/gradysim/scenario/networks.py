@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from itertools import chain
-from operator import attrgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -12,23 +11,20 @@ from gradysim.scenario.expressions import differs_between_parameters
 from gradysim.scenario.geojson import read_obstacle_files
 from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.interfaces import interface_count
-from gradysim.scenario.keys import NETWORK_KEYS
-from gradysim.scenario.lookup import Lookup, SettingReader, is_ignored, is_option, read_scalar, read_struct
+from gradysim.scenario.keys import OBSTACLE_FILE
+from gradysim.scenario.lines import Lines
 from gradysim.scenario.native_protocols import file_of_native
-from gradysim.scenario.nodes import build_nodes, load_protocols
-from gradysim.scenario.obstacles import ObstacleSpec, obstacle_count, read_obstacles
+from gradysim.scenario.nodes import build_nodes
+from gradysim.scenario.obstacles import ObstacleSpec, read_obstacles
+from gradysim.scenario.options import is_ignored, is_option
 from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.protocols import ProtocolLoader
+from gradysim.scenario.resolution import Resolution, resolve
 from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
-from gradysim.scenario.unknown_keys import (
-    NoSuchNodeError,
-    ProtocolAndInterfaces,
-    check_names,
-    check_parameters,
-)
+from gradysim.scenario.unknown_keys import NoSuchNodeError, check_names, check_parameters
+from gradysim.scenario.values import Setting, SettingReader, read_scalar, read_struct
 
 Key = tuple[int, ...]
 """Places of the values of a run's network."""
@@ -40,12 +36,12 @@ class Network(NamedTuple):
     Attributes:
         fields: Those of a Scenario, by name.
         lines_of_other_runs: Lines about nodes that this run does not have, and other runs may have.
-        lookup: The lines in force.
+        resolution: Its lines in force.
     """
 
     fields: Mapping[str, Any]
     lines_of_other_runs: Sequence[Source]
-    lookup: Lookup
+    resolution: Resolution
 
 
 class Networks:
@@ -122,9 +118,8 @@ class Networks:
     def unread(self, variables: Sequence[IterationVariable]) -> tuple[UnreadVariables, ...]:
         """Return the variables that no checked network has read."""
         assert self._last is not None
-        nodes = [spec.name for spec in self._last.fields["nodes"]]
         return tuple(
-            UnreadVariables(line, names, line_instead(line, self._last.lookup, nodes))
+            UnreadVariables(line, names, line_instead(line, self._last.resolution))
             for line, names in unread_variables(self._lines, variables, self._read).items()
         )
 
@@ -143,43 +138,39 @@ def read_network(
     Raises ConfigError for all that is wrong.
     """
     errors = ErrorCollector()
-    lookup = Lookup(entries)
-    groups = find_groups(lookup, settings, errors)
-    lines_of_other_runs = check_names(lookup, groups, errors)
+    lines = Lines(entries)
+    groups = find_groups(lines, settings, errors)
+    lines_of_other_runs = check_names(lines, groups, errors)
     errors.errors = [
         error.with_hint(instead) if isinstance(error, NoSuchNodeError) else error for error in errors.errors
     ]
-    protocols = load_protocols(lookup, groups, settings, loader, errors)
-    if not protocols:
+    resolution = resolve(lines, groups, settings, loader, errors)
+    if not resolution.kinds:
         errors.raise_all()
         raise _no_nodes(groups, instead, source)
-    counts = {name: interface_count(name, lookup, settings, errors) for name in protocols}
-    obstacles_below = obstacle_count(lookup, settings, errors)
-    kinds = {name: ProtocolAndInterfaces(protocol.cls, counts[name]) for name, protocol in protocols.items()}
-    check_parameters(lookup, groups, kinds, obstacles_below, errors)
+    check_parameters(resolution, errors)
 
-    found = {
-        key: entry for key in NETWORK_KEYS if (entry := lookup.first(*key.path.split(".", 1))) is not None
-    }
-    path_of = attrgetter("path")
-    communication = read_struct("communication_medium", found, settings, path_of, errors)
-    reference = read_struct("reference", found, settings, path_of, errors)
+    def read(struct: str) -> dict[str, Setting]:
+        return read_struct(struct, resolution.of_network.values(), settings, errors)
+
+    communication, reference = read("communication_medium"), read("reference")
     latitude, longitude, altitude = (
         float(reference[field].value) if field in reference else 0.0
         for field in ("latitude_deg", "longitude_deg", "altitude_m")
     )
-    nodes = build_nodes(lookup, groups, protocols, counts, settings, errors)
-    medium = read_struct("medium", found, settings, path_of, errors)
-    wind = read_struct("wind", found, settings, path_of, errors)
-    obstacles = read_obstacles(obstacles_below, lookup, settings, errors)
+    nodes = build_nodes(resolution, settings, errors)
+    medium, wind = read("medium"), read("wind")
+    obstacles = read_obstacles(resolution, settings, errors)
     obstacle_files: dict[Path, tuple[ObstacleSpec, ...]] = {}
     with errors.collecting():
         is_placed = {"latitude_deg", "longitude_deg"} <= reference.keys()
         obstacle_files = read_obstacle_files(
-            lookup, settings, (latitude, longitude, altitude) if is_placed else None
+            resolution.of_network.get(OBSTACLE_FILE.path),
+            settings,
+            (latitude, longitude, altitude) if is_placed else None,
         )
     errors.raise_all()
-    chosen = set(protocols.values())
+    chosen = {kind.protocol for kind in resolution.kinds.values()}
     files = [file for protocol in chosen for file in protocol.files]
     files += [*obstacle_files, *settings.files()]
     return Network(
@@ -196,13 +187,13 @@ def read_network(
             "file_hashes": hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
         },
         lines_of_other_runs,
-        lookup,
+        resolution,
     )
 
 
 def _no_nodes(groups: Sequence[Group], instead: str, source: Source) -> ConfigError:
     for group in groups:  # each has a number of nodes, and it is 0
-        if group.size_found is not None:
-            size = group.size_found.entry.source
+        if group.size_line is not None:
+            size = group.size_line.entry.source
             return ConfigError.at(size, "there are no nodes", expected="at least one", hint=instead)
     return ConfigError("there are no nodes", source, expected="some, such as `*.numUavs = 2`", hint=instead)

@@ -15,9 +15,9 @@ from gradysim.protocol.defaults import (
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean
 from gradysim.scenario.keys import ARDUPILOT, QUADCOPTER
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.parameters import can_be_set, parameters_of
 from gradysim.scenario.protocol_modules import Origin, origin_of
+from gradysim.scenario.values import Setting
 
 
 @dataclass(frozen=True)

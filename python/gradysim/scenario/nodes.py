@@ -1,52 +1,34 @@
-"""Builds the nodes of a scenario from the entries in force for each of them.
+"""Builds the nodes of a scenario from the rows of their kinds.
 
-Nodes with the same entries in force share the mappings made from them, so a thousand such nodes cost little
+Nodes with the same lines in force share the mappings made from them, so a thousand such nodes cost little
 more than one.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, replace
-from pathlib import Path
 
-from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
-from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
+from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.groups import Group
 from gradysim.scenario.interfaces import InterfaceBuilder
-from gradysim.scenario.keys import (
-    MASSLESS,
-    MOBILITY_KEYS,
-    NODE_KEYS,
-    PROTOCOL_CLASS,
-    PROTOCOL_KEYS,
-    PROTOCOL_TYPENAME,
-    QUADCOPTER,
-    STATIC_GRID,
-    STATIONARY,
-    WLAN_KEYS,
-)
-from gradysim.scenario.lookup import Candidates, Found, Lookup, Setting, SettingReader, read_struct
-from gradysim.scenario.native_protocols import native_protocol
+from gradysim.scenario.keys import MASSLESS, PROTOCOL_KEYS, QUADCOPTER, STATIC_GRID, STATIONARY
+from gradysim.scenario.lines import Line, Row
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
-from gradysim.scenario.parameter_types import ParameterType
-from gradysim.scenario.parameters import parameters_of
 from gradysim.scenario.paths import path_of
-from gradysim.scenario.placement import AXES, Grid, axis_row, first_of_grid, idle_fields, read_grid
-from gradysim.scenario.protocols import ProtocolLoader
-from gradysim.scenario.schema import Key
-from gradysim.scenario.unknown_keys import is_misspelled_class
+from gradysim.scenario.placement import AXES, Grid, Placement, read_grid
+from gradysim.scenario.resolution import NodeKind, Resolution
+from gradysim.scenario.values import Setting, SettingReader, read_struct, rows_in_force
 
-_TYPENAME = next(key for key in MOBILITY_KEYS if key.target == "mobility.typename")
 _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
 
 @dataclass(frozen=True, eq=False)
-class _Shared:
-    """What nodes with the same entries in force have in common.
+class _Common:
+    """What nodes of one kind have in common.
 
     Attributes:
         row: Start and step in meters for each axis, or None on an axis of a grid.
-        steps: The entries of the steps.
+        steps: The lines of the steps.
         grid_settings: Settings of the grid. Its size also depends on the group.
         grid_line: The place that asks for the grid, or None.
     """
@@ -54,7 +36,7 @@ class _Shared:
     protocol_parameters: Mapping[str, object]
     protocol_sources: Mapping[str, Source]
     row: tuple[tuple[float, float] | None, ...]
-    steps: tuple[Found | None, ...]
+    steps: tuple[Line | None, ...]
     grid_settings: Mapping[str, Setting]
     grid_line: Source | None
     mobility: Mapping[str, Setting]
@@ -65,177 +47,81 @@ class _Shared:
     idle_autopilot: Mapping[str, Setting]
 
 
-@dataclass(frozen=True, eq=False)
-class ChosenProtocol:
-    """The protocol of some nodes, the line that chooses it, and its files."""
-
-    cls: type[IProtocol]
-    source: Source
-    files: tuple[Path, ...] = ()
-
-
-def load_protocols(
-    lookup: Lookup,
-    groups: list[Group],
-    settings: SettingReader,
-    loader: ProtocolLoader,
-    errors: ErrorCollector,
-) -> dict[str, ChosenProtocol]:
-    """Return the protocol of each node, by name.
-
-    Groups with a node that has no protocol, or one that does not load, are left out. `errors` takes the
-    reason. Missing protocols are not reported after other errors, as they often follow from a wrong name.
-    """
-    has_errors = bool(errors.errors)
-    candidates = [(key, lookup.candidates(key.path)) for key in PROTOCOL_KEYS]
-    protocols: dict[str, ChosenProtocol] = {}
-    by_entry: dict[Found, ChosenProtocol] = {}
-
-    def of_node(group: Group, name: str) -> ChosenProtocol:
-        given = [
-            (found.order, key, found)
-            for key, of_key in candidates
-            if (found := of_key.first(name)) is not None and not found.is_default
-        ]
-        if not given:
-            error = _misspelled_class_error(lookup, group, name)
-            raise error or _no_class_error(group, groups, name)
-        _, key, found = min(given, key=lambda each: each[0])
-        if found not in by_entry:
-            load = _load_class if key is PROTOCOL_CLASS else _native_class
-            by_entry[found] = load(found, settings, loader)
-        return by_entry[found]
-
-    for group in groups:
-        try:
-            protocols |= {name: of_node(group, name) for name in group.node_names()}
-        except _MissingProtocolError as error:
-            if not has_errors:
-                errors.add(error)
-        except ConfigError as error:
-            errors.add(error)
-    return protocols
-
-
-class _MissingProtocolError(ConfigError):
-    """Nothing says which protocol a node runs."""
-
-
 def build_nodes(
-    lookup: Lookup,
-    groups: list[Group],
-    protocols: Mapping[str, ChosenProtocol],
-    interface_counts: Mapping[str, int],
-    settings: SettingReader,
-    errors: ErrorCollector,
+    resolution: Resolution, settings: SettingReader, errors: ErrorCollector
 ) -> tuple[NodeSpec, ...]:
     """Return all nodes with a protocol, in the order of their ids. `errors` takes the errors of values."""
-    builder = _NodeBuilder(lookup, settings, errors)
+    builder = _NodeBuilder(resolution, settings, errors)
     nodes: list[NodeSpec] = []
-    for group in groups:
+    for group in resolution.groups:
         for index, name in enumerate(group.node_names()):
-            if name not in protocols:
+            kind = resolution.kinds.get(name)
+            if kind is None:
                 break
-            shared = builder.shared(name, protocols[name], interface_counts[name])
-            grid = builder.grid(shared, group)
+            common = builder.common(name, kind)
+            grid = builder.grid(common, group)
             x, y, z = (
                 builder.coordinate_m(name, index, axis, row, step)
                 if row is not None
                 else grid.coordinate_m(index, axis)
-                for axis, row, step in zip(AXES, shared.row, shared.steps, strict=True)
+                for axis, row, step in zip(AXES, common.row, common.steps, strict=True)
             )
-            place = builder.start(shared.mobility, (x, y, z))
+            place = builder.start(common.mobility, (x, y, z))
             nodes.append(
                 NodeSpec(
                     id=len(nodes),
                     name=name,
                     group=group.name,
                     index=index,
-                    protocol=protocols[name].cls,
-                    protocol_parameters=shared.protocol_parameters,
+                    protocol=kind.protocol.cls,
+                    protocol_parameters=common.protocol_parameters,
                     initial_position=place,
-                    mobility=shared.mobility,
-                    wlan=shared.wlan,
-                    protocol_sources=shared.protocol_sources,
-                    node=shared.node,
-                    computer=shared.computer,
-                    autopilot=shared.autopilot,
-                    idle_autopilot=shared.idle_autopilot,
+                    mobility=common.mobility,
+                    wlan=common.wlan,
+                    protocol_sources=common.protocol_sources,
+                    node=common.node,
+                    computer=common.computer,
+                    autopilot=common.autopilot,
+                    idle_autopilot=common.idle_autopilot,
                 )
             )
     return tuple(nodes)
 
 
 class _NodeBuilder:
-    def __init__(self, lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> None:
-        self._lookup = lookup
+    def __init__(self, resolution: Resolution, settings: SettingReader, errors: ErrorCollector) -> None:
         self._settings = settings
         self._errors = errors
-        self._keys = [
-            (key, candidates)
-            for key in NODE_KEYS
-            if key not in (*PROTOCOL_KEYS, *WLAN_KEYS) and (candidates := lookup.candidates(key.path))
-        ]
-        self._parameters: dict[type[IProtocol], list[tuple[str, ParameterType, Candidates]]] = {}
-        self._interfaces = InterfaceBuilder(lookup, settings, errors)
-        self._shared: dict[object, _Shared] = {}
-        self._grids: dict[tuple[_Shared, str], Grid] = {}
+        self._interfaces = InterfaceBuilder(resolution, settings, errors)
+        self._common: dict[NodeKind, _Common] = {}
+        self._structs: dict[object, Mapping[str, Setting]] = {}
+        self._kept: list[Mapping[str, Setting]] = []  # so that their ids are not reused
+        self._sources: dict[NodeKind, Mapping[str, Source]] = {}
+        self._grids: dict[tuple[_Common, str], Grid] = {}
 
-    def shared(self, name: str, protocol: ChosenProtocol, interface_count: int) -> _Shared:
-        cls = protocol.cls
-        parameters = self._parameters.get(cls)
-        if parameters is None:
-            parameters = self._parameters[cls] = [
-                (parameter, kind, candidates)
-                for parameter, kind in parameters_of(cls).items()
-                if (candidates := self._lookup.candidates(f"protocol.{parameter}"))
-            ]
-        found = [candidates.first(name) for _, candidates in self._keys]
-        found_parameters = [candidates.first(name) for _, _, candidates in parameters]
-        wlan = self._interfaces.interfaces(name, interface_count)
-        in_force = (protocol, *map(id, wlan), *found, *found_parameters)
-        differs = any(entry.differs for entry in (*found, *found_parameters) if entry)
-        shared = self._shared.get(in_force)
-        if shared is None or differs:  # the same lines give each node other values
-            made = self._make(
-                name,
-                {key: entry for (key, _), entry in zip(self._keys, found, strict=True) if entry},
-                wlan,
-                protocol.source,
-                self._parameter_settings(name, parameters, found_parameters),
-            )
-            shared = _with_mappings_of(shared, made) if shared else made
-            self._shared[in_force] = shared
-        return shared
+    def common(self, name: str, kind: NodeKind) -> _Common:
+        """Return what a node has in common with those of its kind, or its own if lines draw its values."""
+        common = self._common.get(kind)
+        if common is None:
+            common = self._make(name, kind)
+            if not kind.differs:
+                self._common[kind] = common
+        return common
 
-    def _parameter_settings(
-        self,
-        name: str,
-        parameters: Sequence[tuple[str, ParameterType, Candidates]],
-        found: Sequence[Found | None],
-    ) -> dict[str, Setting]:
-        read: dict[str, Setting] = {}
-        for (parameter, kind, _), entry in zip(parameters, found, strict=True):
-            if entry and not entry.is_default:
-                with self._errors.collecting():
-                    path = f"{name}.protocol.{parameter}"
-                    read[parameter] = self._settings.setting(entry.entry, kind, path)
-        return read
-
-    def grid(self, shared: _Shared, group: Group) -> Grid:
+    def grid(self, common: _Common, group: Group) -> Grid:
         """Return the grid of those nodes of a group; an empty one if they are not in a grid."""
-        if shared.grid_line is None:
+        if common.grid_line is None:
             return _NO_GRID
-        grid = self._grids.get((shared, group.name))
+        grid = self._grids.get((common, group.name))
         if grid is None:
             grid = _NO_GRID
             with self._errors.collecting():
-                grid = read_grid(shared.grid_settings, group, shared.grid_line)
-            self._grids[shared, group.name] = grid
+                grid = read_grid(common.grid_settings, group, common.grid_line)
+            self._grids[common, group.name] = grid
         return grid
 
     def coordinate_m(
-        self, node: str, index: int, axis: str, row: tuple[float, float], step: Found | None
+        self, node: str, index: int, axis: str, row: tuple[float, float], step: Line | None
     ) -> float:
         """Return the initial coordinate of a node on one axis of a row."""
         coordinate = row[0] + index * row[1]
@@ -257,127 +143,71 @@ class _NodeBuilder:
                 raise ConfigError.at(typename.source, text, expected="at least 0m")
         return place
 
-    def _make(
-        self,
-        name: str,
-        found: dict[Key, Found],
-        wlan: tuple[InterfaceSpec, ...],
-        chosen_at: Source,
-        protocol_settings: dict[str, Setting],
-    ) -> _Shared:
-        parameters = {name: setting.value for name, setting in protocol_settings.items()}
-        sources = {name: setting.source for name, setting in protocol_settings.items()}
-        position = {key.field: entry for key, entry in found.items() if key.struct == "position"}
-
-        def path_of(key: Key) -> str:
-            return f"{name}.{key.path}"
-
-        mobility = read_struct("mobility", found, self._settings, path_of, self._errors)
+    def _make(self, name: str, kind: NodeKind) -> _Common:
+        wlan = self._interfaces.interfaces(name, kind)
+        parameters = self._read("protocol", name, kind)
+        position = rows_in_force("position", kind.rows.values())
+        lines = {field: row.line for field, row in position.items()}
+        mobility = self._read("mobility", name, kind)
         typename = mobility.get("typename")
-        is_static_grid = typename is not None and typename.value == STATIC_GRID
-        if is_static_grid:
-            mobility["typename"] = replace(mobility["typename"], value=STATIONARY)
-            position[STATIC_GRID] = found[_TYPENAME]
+        if typename is not None and typename.value == STATIC_GRID:
+            mobility = self._with_typename(mobility, STATIONARY)
+            lines[STATIC_GRID] = kind.rows["mobility.typename"].line
+        placement = Placement(lines)
         error_count = len(self._errors.errors)
-        position_settings = self._position(found, position, path_of)
+        grid_settings = self._position(f"{name}.", position, placement.idle)
         has_position = len(self._errors.errors) == error_count
-        values = {field: float(setting.value) for field, setting in position_settings.items()}
-        autopilot_settings = read_struct("autopilot", found, self._settings, path_of, self._errors)
+        values = {field: float(setting.value) for field, setting in grid_settings.items()}
+        idle_autopilot = self._read("autopilot", name, kind)
         autopilot = None
         with self._errors.collecting():
-            autopilot = read_autopilot(mobility, autopilot_settings)
+            autopilot = read_autopilot(mobility, idle_autopilot)
         if autopilot is not None:
-            mobility["typename"] = replace(mobility["typename"], value=MASSLESS)
-        row = tuple(axis_row(axis, position, values) for axis in AXES)
-        steps = tuple(position.get(f"line_step_{axis}") for axis in AXES)
-        return _Shared(
-            parameters,
-            {"": chosen_at, **sources},
-            row,
-            steps,
-            position_settings,
-            first_of_grid(position) if has_position else None,
+            mobility, idle_autopilot = self._with_typename(mobility, MASSLESS), {}
+        return _Common(
+            {field: setting.value for field, setting in parameters.items()},
+            self._sources_of(kind, parameters),
+            tuple(placement.row(axis, values) for axis in AXES),
+            tuple(lines.get(f"line_step_{axis}") for axis in AXES),
+            grid_settings,
+            placement.grid_line if has_position else None,
             mobility=mobility,
-            node=read_struct("node", found, self._settings, path_of, self._errors),
-            computer=read_struct("computer", found, self._settings, path_of, self._errors),
+            node=self._read("node", name, kind),
+            computer=self._read("computer", name, kind),
             wlan=wlan,
             autopilot=autopilot,
-            idle_autopilot=autopilot_settings if autopilot is None else {},
+            idle_autopilot=idle_autopilot,
         )
 
-    def _position(
-        self, found: Mapping[Key, Found], by_field: Mapping[str, Found], path_of: Callable[[Key], str]
-    ) -> dict[str, Setting]:
+    def _read(self, struct: str, name: str, kind: NodeKind) -> Mapping[str, Setting]:
+        """Return the fields of a struct; nodes of all kinds with the same lines share the mapping."""
+        rows = [
+            row for row in kind.rows.values() if row.key.struct == struct and row.key not in PROTOCOL_KEYS
+        ]
+        if any(row.line.differs for row in rows):
+            return read_struct(struct, rows, self._settings, self._errors, f"{name}.")
+        known = (struct, *((row.path, row.line) for row in rows))
+        if known not in self._structs:
+            self._structs[known] = read_struct(struct, rows, self._settings, self._errors, f"{name}.")
+        return self._structs[known]
+
+    def _with_typename(self, mobility: Mapping[str, Setting], typename: str) -> Mapping[str, Setting]:
+        known = (typename, id(mobility))
+        if known not in self._structs:
+            changed = replace(mobility["typename"], value=typename)
+            self._structs[known] = {**mobility, "typename": changed}
+            self._kept.append(mobility)
+        return self._structs[known]
+
+    def _sources_of(self, kind: NodeKind, parameters: Mapping[str, Setting]) -> Mapping[str, Source]:
+        if kind not in self._sources:
+            sources = {field: setting.source for field, setting in parameters.items()}
+            self._sources[kind] = {"": kind.protocol.source, **sources}
+        return self._sources[kind]
+
+    def _position(self, prefix: str, rows: Mapping[str, Row], idle: Set[str]) -> dict[str, Setting]:
         """Read the settings of a node's initial position; those that are not in force are only checked."""
-        idle = idle_fields(by_field)
-        checked = {key: entry for key, entry in found.items() if key.field in idle}
-        others = {key: entry for key, entry in found.items() if key.field not in idle}
-        settings: dict[str, Setting] = {}
-        if checked:
-            settings = read_struct("position", checked, self._settings.for_checks(), path_of, self._errors)
-        return settings | read_struct("position", others, self._settings, path_of, self._errors)
-
-
-def _with_mappings_of(other: _Shared, made: _Shared) -> _Shared:
-    """Return `made` with the mappings of `other` where they are equal."""
-    return replace(
-        made,
-        protocol_sources=other.protocol_sources,
-        mobility=other.mobility if other.mobility == made.mobility else made.mobility,
-        node=other.node if other.node == made.node else made.node,
-        computer=other.computer if other.computer == made.computer else made.computer,
-    )
-
-
-def _load_class(found: Found, settings: SettingReader, loader: ProtocolLoader) -> ChosenProtocol:
-    entry = found.entry
-    reference = str(settings.scalar(entry, PROTOCOL_CLASS.kind))
-    folder = entry.source.file.parent
-    try:
-        return ChosenProtocol(loader.load(reference, folder), entry.source, loader.files(reference, folder))
-    except BadValue as error:
-        raise error.at(entry.source) from error
-
-
-def _native_class(found: Found, settings: SettingReader, _: ProtocolLoader) -> ChosenProtocol:
-    entry = found.entry
-    try:
-        cls = native_protocol(str(settings.scalar(entry, PROTOCOL_TYPENAME.kind)))
-        return ChosenProtocol(cls, entry.source)
-    except BadValue as error:
-        raise error.at(entry.source, expected="one that `gradysim keys protocol` lists") from error
-
-
-def _misspelled_class_error(lookup: Lookup, group: Group, node: str) -> ConfigError | None:
-    """Return the error for the line that was meant to set the protocol; None if there is none."""
-    for found in lookup.found:
-        meant = _without_index(found, group, lookup.network)
-        name, rest = found.name_pattern(), found.rest_pattern()
-        if meant is None and name is not None and (name.matches(node) or name.matches(group.name)):
-            meant = PROTOCOL_CLASS if is_misspelled_class(rest) else None
-        if meant is not None:
-            return _MissingProtocolError(
-                f"`{found.entry.key}` matches no parameter, and nothing says which protocol {node} runs",
-                found.entry.source,
-                expected=f"`*.{group.written}.{meant.path}`",
-            )
-    return None
-
-
-def _without_index(found: Found, group: Group, network: str) -> Key | None:
-    """Return the key that an entry would set if it had `[*]` after the group's name."""
-    if found.is_default or group.written == group.name:
-        return None
-    matches = found.pattern.matches
-    return next((key for key in PROTOCOL_KEYS if matches(f"{network}.{group.name}.{key.path}")), None)
-
-
-def _no_class_error(group: Group, groups: list[Group], node: str) -> ConfigError:
-    keys = {other.name: other.size_key for other in groups if other is not group and other.size is not None}
-    match = nearest(group.name, keys)
-    return _MissingProtocolError(
-        f"nothing says which protocol {node} runs",
-        group.size_found.entry.source if group.size_found else None,
-        expected=f'`*.{group.written}.protocol.class = "file.py:Class"`',
-        suggestion=f"*.{keys[match]}" if match else "",
-    )
+        checked = [row for field, row in rows.items() if field in idle]
+        others = [row for field, row in rows.items() if field not in idle]
+        settings = read_struct("position", checked, self._settings.for_checks(), self._errors, prefix)
+        return settings | read_struct("position", others, self._settings, self._errors, prefix)

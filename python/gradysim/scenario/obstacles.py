@@ -3,15 +3,15 @@
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import partial
 from itertools import pairwise
 from typing import Any
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
-from gradysim.scenario.lookup import Lookup, Setting, SettingReader, read_struct
-from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
+from gradysim.scenario.resolution import Resolution
+from gradysim.scenario.schema import HAS_TO_BE_GIVEN
+from gradysim.scenario.values import Setting, SettingReader, read_struct
 
 Corner = tuple[float, float]
 """x and y in meters."""
@@ -61,40 +61,22 @@ class ObstacleSpec:
     label: str = ""
 
 
-def obstacle_count(lookup: Lookup, settings: SettingReader, errors: ErrorCollector) -> int:
-    """Return `environment.numObstacles`. `errors` takes the error of a bad number, which counts as 0."""
-    with errors.collecting():
-        setting = read_setting(lookup, settings, NUM_OBSTACLES, NUM_OBSTACLES.path)
-        return int(setting.value) if setting else 0
-    return 0
-
-
 def read_obstacles(
-    count: int, lookup: Lookup, settings: SettingReader, errors: ErrorCollector
+    resolution: Resolution, settings: SettingReader, errors: ErrorCollector
 ) -> tuple[ObstacleSpec, ...]:
     """Return the obstacles that the .ini file describes. `errors` takes what is missing or wrong."""
-    counted_at = lookup.first(*NUM_OBSTACLES.path.split(".", 1))
+    rows = resolution.of_network
     obstacles = []
-    for index in range(count):
-        assert counted_at is not None
-        found = {
-            key: entry
-            for key in OBSTACLE_KEYS
-            if (entry := lookup.first(*obstacle_path(key, index).split(".", 1))) is not None
-        }
+    for index in range(resolution.obstacle_count):
+        paths = (obstacle_path(key, index) for key in OBSTACLE_KEYS)
         wrong = ErrorCollector()
-        values = read_struct("obstacle", found, settings, partial(obstacle_path, index=index), wrong)
-        source = next((setting.source for setting in values.values()), counted_at.entry.source)
+        values = read_struct("obstacle", (rows[path] for path in paths if path in rows), settings, wrong)
+        counted_at = rows[NUM_OBSTACLES.path].line.entry.source
+        source = next((setting.source for setting in values.values()), counted_at)
         with errors.collecting():
             wrong.raise_all()
             obstacles.append(_obstacle(f"obstacle[{index}]", values, source))
     return tuple(obstacles)
-
-
-def read_setting(lookup: Lookup, settings: SettingReader, key: Key, path: str) -> Setting | None:
-    """Return the value of a parameter of the network; None if nothing sets it."""
-    found = lookup.first(*path.split(".", 1))
-    return None if found is None or found.is_default else settings.setting(found.entry, key.kind, path)
 
 
 def _obstacle(name: str, values: Mapping[str, Setting], source: Source) -> ObstacleSpec:

@@ -11,7 +11,7 @@ from gradysim.protocol.defaults import SPEED_MPS
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.keys import CIRCLE, LINEAR, RECTANGLE
-from gradysim.scenario.lookup import Setting
+from gradysim.scenario.values import Setting
 
 Path = Callable[[float], Position]
 """Returns the position in meters at a simulated time in seconds."""

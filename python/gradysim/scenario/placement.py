@@ -14,7 +14,8 @@ from gradysim.protocol.position import LARGEST_COORDINATE_M
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.groups import Group
 from gradysim.scenario.keys import STATIC_GRID
-from gradysim.scenario.lookup import Found, Setting
+from gradysim.scenario.lines import Line
+from gradysim.scenario.values import Setting
 
 AXES = ("x", "y", "z")
 _AXES_OF_GRID = ("x", "y")
@@ -24,53 +25,54 @@ _LINE, _INITIAL, _GRID = (
     ("initial_{}",),
     ("margin_{}", "separation_{}", "num_hosts", "columns", "rows", STATIC_GRID),
 )
-"""Fields of a position, by the three ways to set it along an axis; of equal entries the first way counts."""
+"""Fields of a position, by the three ways to set it along an axis; of equal lines the first way counts."""
 
 
-def _entries(way: tuple[str, ...], axis: str, found: Mapping[str, Found]) -> list[Found]:
-    """Return the entries that place nodes in one way along an axis."""
-    entries = [entry for field in way if (entry := found.get(field.format(axis)))]
+class Placement:
+    """The ways in which lines place nodes along each axis; the first line of all decides.
+
+    Attributes:
+        idle: The fields without effect on the initial position.
+        grid_line: The line that asks for a grid; None if there is no grid.
+    """
+
+    def __init__(self, in_force: Mapping[str, Line]) -> None:
+        """Take the line in force for each field."""
+        self.grid_line: Source | None = None
+        self._ways: dict[str, tuple[str, ...]] = {}
+        of_grid: list[Line] = []
+        for axis in AXES:
+            lines = {way: _lines(way, axis, in_force) for way in (_LINE, _INITIAL, _GRID)}
+            chosen = min(lines, key=lambda way: min((line.order for line in lines[way]), default=math.inf))
+            self._ways[axis] = chosen
+            if chosen is _GRID:
+                of_grid += lines[_GRID]
+        if of_grid:
+            self.grid_line = min(of_grid, key=lambda line: line.order).entry.source
+        self.idle = {
+            field.format(axis)
+            for axis, chosen in self._ways.items()
+            for way in (_LINE, _INITIAL, _GRID)
+            for field in way
+            if way is not chosen and "{" in field
+        }
+
+    def row(self, axis: str, values: Mapping[str, float]) -> tuple[float, float] | None:
+        """Return start and step along one axis in meters; None in a grid."""
+        way = self._ways[axis]
+        if way is _GRID:
+            return None
+        if way is _INITIAL:
+            return values.get(f"initial_{axis}", 0.0), 0.0
+        return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
+
+
+def _lines(way: tuple[str, ...], axis: str, in_force: Mapping[str, Line]) -> list[Line]:
+    """Return the lines that place nodes in one way along an axis."""
+    lines = [line for field in way if (line := in_force.get(field.format(axis)))]
     if way is _GRID:
-        return [entry for entry in entries if axis in _AXES_OF_GRID and not entry.is_default]
-    return entries
-
-
-def _way(axis: str, found: Mapping[str, Found]) -> tuple[str, ...]:
-    """Return the way in force along an axis."""
-    orders = {way: [entry.order for entry in _entries(way, axis, found)] for way in (_LINE, _INITIAL, _GRID)}
-    return min(orders, key=lambda way: min(orders[way], default=math.inf))
-
-
-def idle_fields(found: Mapping[str, Found]) -> set[str]:
-    """Return the fields without effect on the initial position."""
-    ways = {axis: _way(axis, found) for axis in AXES}
-    return {
-        field.format(axis)
-        for axis, in_force in ways.items()
-        for way in (_LINE, _INITIAL, _GRID)
-        for field in way
-        if way is not in_force and "{" in field
-    }
-
-
-def axis_row(
-    axis: str, found: Mapping[str, Found], values: Mapping[str, float]
-) -> tuple[float, float] | None:
-    """Return start and step along one axis in meters; None in a grid."""
-    way = _way(axis, found)
-    if way is _GRID:
-        return None
-    if way is _INITIAL:
-        return values.get(f"initial_{axis}", 0.0), 0.0
-    return values.get(f"line_start_{axis}", 0.0), values.get(f"line_step_{axis}", 0.0)
-
-
-def first_of_grid(found: Mapping[str, Found]) -> Source | None:
-    """Return the line that asks for a grid; None if there is no grid."""
-    if _GRID not in (_way(axis, found) for axis in _AXES_OF_GRID):
-        return None
-    entries = (entry for axis in _AXES_OF_GRID for entry in _entries(_GRID, axis, found))
-    return min(entries, key=lambda entry: entry.order).entry.source
+        return [line for line in lines if axis in _AXES_OF_GRID and not line.is_default]
+    return lines
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ import re
 from array import array
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from operator import index
 from pathlib import Path
 from types import MappingProxyType
@@ -21,10 +20,10 @@ from gradysim.scenario.combinations import (
 )
 from gradysim.scenario.errors import OF_SCRIPT, ConfigError, Source
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys import NETWORK_MODULES
-from gradysim.scenario.lookup import Lookup, is_ignored, is_option, read_scalar
-from gradysim.scenario.schema import LARGEST_SEED, NETWORK, OPTIONS
+from gradysim.scenario.options import LARGEST_SEED, NETWORK, OPTIONS, is_ignored, is_option
+from gradysim.scenario.resolution import Resolution
 from gradysim.scenario.sweep import LABEL_OPTIONS, MAX_VALUES, REPETITION, IterationVariable, substitute
+from gradysim.scenario.values import read_scalar
 
 HASH_DIGITS = 16
 """Hexadecimal digits of a hash, as many as a fingerprint has."""
@@ -346,18 +345,9 @@ def unread_variables(
     return unread
 
 
-def line_instead(idle: Source, lookup: Lookup, nodes: Iterable[str]) -> Source | None:
-    """Return a line that is in force where the line `idle` matches, too; None if there is none.
-
-    `nodes` are their names. Parameters are those that the lookup was asked for.
-    """
-    for rest, candidates in lookup.asked_for():
-        for candidate in candidates.every:
-            if candidate.found.entry.source == idle:
-                for name in filter(
-                    partial(candidate.matches, lookup.network, rest), (*nodes, *NETWORK_MODULES)
-                ):
-                    first = candidates.first(name)
-                    if first is not None and first.entry.source != idle:
-                        return first.entry.source
+def line_instead(idle: Source, resolution: Resolution) -> Source | None:
+    """Return a line that is in force where the line `idle` matches, too; None if there is none."""
+    for row in resolution.rows():
+        if row.line.entry.source != idle and any(line.entry.source == idle for line in row.lines):
+            return row.line.entry.source
     return None

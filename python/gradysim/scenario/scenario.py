@@ -9,12 +9,12 @@ from gradysim.notebook import html_table
 from gradysim.protocol.checked_values import checked_number
 from gradysim.scenario.errors import ConfigError, Source, nearest
 from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.lookup import Setting, is_ignored, options_in_force
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
+from gradysim.scenario.options import LONGEST_RUN_S, is_ignored, options_in_force
 from gradysim.scenario.runs import UnreadVariables, checked_seed
-from gradysim.scenario.schema import LONGEST_RUN_S
 from gradysim.scenario.sweep import run_variables, substitute, with_labels
+from gradysim.scenario.values import Setting
 
 
 @dataclass(frozen=True)

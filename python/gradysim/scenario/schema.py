@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 from gradysim.scenario.parameter_types import (
@@ -25,7 +24,6 @@ from gradysim.scenario.parameter_types import (
     power_ratio,
     powers_by_bitrate,
     quantity,
-    text,
     whole_bytes,
 )
 from gradysim.scenario.units import db_from_ratio
@@ -146,121 +144,3 @@ def _kind(kind: str, **details: Any) -> ParameterType:
         case "powers_by_bitrate":
             return powers_by_bitrate()
     raise ValueError(f"schema.json has a type `{kind}` that {__name__} does not know")
-
-
-# Options of a run, and options that only OMNeT++ has. Of the latter, those that say how OMNeT++ runs, shows
-# and records are ignored. Those that would make another run are refused.
-
-LONGEST_RUN_S = 9_200_000
-"""The engine's bound, SimTime::longest_run_s: its clock counts picoseconds in 64 bits. Both modes have it."""
-
-LARGEST_SEED = 2**63 - 1
-"""Of a run, in both modes."""
-
-
-def _option(name: str, kind: ParameterType, meaning: str, default: str) -> Key:
-    return Key(name, f"option.{name.replace('-', '_')}", kind, meaning, default)
-
-
-OPTION_KEYS: tuple[Key, ...] = (
-    _option(
-        "sim-time-limit",
-        quantity("s", above=0, at_most=LONGEST_RUN_S),
-        "Simulated time at which a run ends",
-        HAS_TO_BE_GIVEN,
-    ),
-    _option("seed-set", integer(0, LARGEST_SEED), "Seed of all random numbers of a run", "${runnumber}"),
-    _option(
-        "repeat",
-        integer(1, 1_000_000),
-        "Number of runs of each combination of values of `${...}`, each with its own seed",
-        "1",
-    ),
-    _option(
-        "constraint",
-        text(),
-        "Condition on the values of a run: `$x < $y && $x != 3`; by default all combinations are runs",
-        '""',
-    ),
-    _option(
-        "iteration-nesting-order",
-        text(),
-        "Names of iteration variables, the outermost first: `repetition, *, x`; `*`: the others in order",
-        "*, repetition",
-    ),
-    _option(
-        "experiment-label",
-        text(),
-        "What `--scalars` and `--vectors` call the runs of a configuration",
-        "${configname}",
-    ),
-    _option(
-        "measurement-label",
-        text(),
-        "What they call the runs with equal values of `${...}`",
-        "${iterationvars}",
-    ),
-    _option("replication-label", text(), "What they call one of these runs", "#${repetition}"),
-    _option(
-        "vector-record-interval",
-        quantity("s", at_least=0, at_most=LONGEST_RUN_S),
-        "Least time between two rows that `--vectors` writes of a variable or position",
-        "0s",
-    ),
-    _option("description", text(), "Description of the configuration", '""'),
-)
-
-OPTIONS: dict[str, ParameterType] = {key.path: key.kind for key in OPTION_KEYS}
-
-NETWORK = "network"
-"""Option for the first name of paths. Nothing else of OMNeT++'s option is used."""
-
-SECTION_OPTIONS = ("extends", "abstract")
-"""Options that belong to a section and cannot be given on the command line."""
-
-IGNORED_OPTIONS = (
-    "allow-object-stealing-on-deletion", "check-signals", "config-recording", "configuration-class",
-    "debug-on-errors", "debug-statistics-recording", "eventlogmanager-class", "fname-append-host",
-    "futureeventset-class", "image-path", "load-libs", "max-module-nesting", "num-rngs",
-    "outputscalarmanager-class", "outputvectormanager-class", "parallel-simulation",
-    "parameter-mutability-check", "record-eventlog", "result-dir", "resultdir-subdivision", "rng-class",
-    "runnumber-width", "sectionbasedconfig-configreader-class", "simtime-resolution", "simtime-scale",
-    "snapshot-file", "snapshotmanager-class", "total-stack", "user-interface", "warnings",
-)  # fmt: skip
-"""Options of a run that only OMNeT++ reads."""
-
-IGNORED_OPTION_BEGINNINGS = (
-    "cmdenv-", "debugger-attach-", "eventlog-", "fingerprint", "ned-", "output-scalar-", "output-vector",
-    "parsim-", "print-", "qtenv-",
-)  # fmt: skip
-"""Of the names of such options."""
-
-IGNORED_BEGINNINGS = (
-    "cmdenv-", "qtenv-", "rng-", "vector-recording", "vector-record-e", "vector-buffer",
-)  # fmt: skip
-"""Of the last names of keys: options that are given per module, such as `**.cmdenv-log-level`."""
-
-IGNORED_ENDS = (
-    *(f"{kind}-recording" for kind in ("scalar", "statistic", "bin", "param", "module-eventlog")),
-    "result-recording-modes",
-    "param-record-as-scalar",
-    "display-name",
-    "display-string",
-    "partition-id",
-)
-"""Last names of keys: what OMNeT++ records of a module, shows of it, and where it runs it."""
-
-IGNORED_MODULES = ("visualizer",)
-"""Names below the network whose parameters are OMNeT++'s alone."""
-
-REFUSED_OPTIONS = MappingProxyType(
-    {
-        "warmup-period": "results are of whole runs; expected a protocol that begins to count later",
-        "cpu-time-limit": "a run ends in simulated time; expected `sim-time-limit`",
-        "real-time-limit": "a run ends in simulated time; expected `sim-time-limit`",
-        "scheduler-class": "expected `real_time` in a script, for runs that go by the clock",
-        "realtimescheduler-scaling": "expected `real_time` in a script, for runs that go by the clock",
-        "seed-*": "a run has one seed for all its streams; expected `seed-set`",
-    }
-)
-"""{option, with `*` for any letters: what to do without it}."""

@@ -16,8 +16,8 @@ from pathlib import Path
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.functions import is_quoted, unquoted
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.lookup import is_ignored, read_scalar
-from gradysim.scenario.schema import OPTIONS
+from gradysim.scenario.options import OPTIONS, is_ignored
+from gradysim.scenario.values import read_scalar
 
 REPETITION = "repetition"
 """The variable that counts the runs of one combination of values, from 0."""

@@ -5,208 +5,116 @@ loaded, which declare some of them. Each error has the nearest valid key, if the
 """
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from fnmatch import fnmatchcase
-from itertools import chain
-from typing import NamedTuple
+from collections.abc import Iterable, Sequence
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.distributions import distribution_in
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source, nearest
 from gradysim.scenario.groups import Group
-from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import (
-    GROUP_SIZE,
     NETWORK_KEYS,
     NETWORK_MODULES,
     NODE_KEYS,
-    OBSTACLE_KEYS,
     PROTOCOL_CLASS,
-    PROTOCOL_KEYS,
     WLAN,
     WLAN_KEYS,
-    at_interface,
     interface_in,
-    obstacle_path,
     written_for,
 )
-from gradysim.scenario.lookup import Candidate, Found, Lookup, is_ignored
+from gradysim.scenario.lines import Line, Lines, id_of
 from gradysim.scenario.parameters import annotations_of, parameters_of
 from gradysim.scenario.patterns import Pattern, compile_pattern
-from gradysim.scenario.schema import NETWORK, OPTIONS, REFUSED_OPTIONS, SECTION_OPTIONS
+from gradysim.scenario.resolution import Resolution, is_misspelled_class, node_schema
 
 
 class NoSuchNodeError(ConfigError):
     """A key names a node or a group that does not exist."""
 
 
-class ProtocolAndInterfaces(NamedTuple):
-    """What decides which keys a node has."""
-
-    protocol: type[IProtocol]
-    interface_count: int
-
-
-def check_option(entry: Entry) -> None:
-    """Raise ConfigError if the option does not exist or cannot be set there."""
-    key = entry.key
-    if key in SECTION_OPTIONS and entry.source.is_override:
-        raise ConfigError(f"`{key}` belongs to a section", entry.source, expected="it in the file")
-    if key in (*OPTIONS, *SECTION_OPTIONS, NETWORK) or is_ignored(entry):
-        return
-    for option, instead in REFUSED_OPTIONS.items():
-        if fnmatchcase(key, option):
-            raise ConfigError(f"`{key}` is an option that only OMNeT++ has: {instead}", entry.source)
-    match = nearest(key, [*OPTIONS, *SECTION_OPTIONS, NETWORK, "result-dir"])
-    if re.fullmatch(r"num[A-Z]\w*", key):
-        match = f"*.{key}"
-    raise ConfigError(
-        f"there is no option `{key}`",
-        entry.source,
-        expected="an option, or a parameter such as `*.uavs[*].mobility.speed`",
-        suggestion=match,
-    )
-
-
-class _Names:
-    """Names below the network, indexed by their parts before the bracket."""
-
-    def __init__(self, names: Iterable[str]) -> None:
-        self._groups: dict[str, dict[str, None]] = {}
-        for name in names:
-            self._groups.setdefault(name.partition("[")[0], {})[name] = None
-
-    def matching(self, pattern: Pattern) -> Iterator[str]:
-        """Yield the names that a pattern matches."""
-        if pattern.literal is not None:
-            group = self._groups.get(pattern.literal.partition("[")[0], {})
-            return iter([pattern.literal] if pattern.literal in group else [])
-        groups = self._groups.values() if pattern.group is None else [self._groups.get(pattern.group, {})]
-        return filter(pattern.matches, chain.from_iterable(groups))
-
-    def has_match(self, pattern: Pattern) -> bool:
-        """Return whether a pattern matches one of the names."""
-        return next(self.matching(pattern), None) is not None
-
-    def __iter__(self) -> Iterator[str]:
-        return chain.from_iterable(self._groups.values())
-
-
-def check_names(lookup: Lookup, groups: list[Group], errors: ErrorCollector) -> list[Source]:
+def check_names(lines: Lines, groups: list[Group], errors: ErrorCollector) -> list[Source]:
     """Report keys that name no node, no group and no other part of the network.
 
     Returns the lines about nodes that this run does not have, and other runs may have.
     """
     elsewhere: list[Source] = []
-    names = _Names(
+    known = lines.patterns_of(
         [
             *NETWORK_MODULES,
             *(name for group in groups for name in (group.size_key, group.name)),
             *(name for group in groups for name in group.node_names() or [f"{group.name}[0]"]),
         ]
     )
-    for found in lookup.found:
-        name = found.name_pattern()
+    by_name = {group.name: group for group in groups}
+    for line in lines.all:
+        name = line.name_pattern
         if name is None:
             continue
-        assert found.parts is not None
-        if not found.parts[0].matches(lookup.network):
-            errors.add(_unknown_name(found, groups, lookup))
-        elif not names.has_match(name):
-            group = next((group for group in groups if group.name == name.group), None)
-            size = group.size_found if group else None
+        assert line.parts is not None
+        if not line.parts[0].matches(lines.network):
+            errors.add(_unknown_name(line, groups, lines))
+        elif id_of(name) not in known:
+            group = by_name.get(name.group or "")
+            size = group.size_line if group else None
             if group is None or size is None:
-                errors.add(_unknown_name(found, groups, lookup))
+                errors.add(_unknown_name(line, groups, lines))
             elif (
-                size.entry.rank < found.entry.rank or distribution_in(size.entry.text) or group.has_wrong_size
+                size.entry.rank < line.entry.rank or distribution_in(size.entry.text) or group.has_wrong_size
             ):
                 pass  # a more specific section has reduced the group, or another seed may draw the index
             elif "${" in size.entry.source.value:
-                elsewhere.append(found.entry.source)
+                elsewhere.append(line.entry.source)
             else:
-                errors.add(_unknown_name(found, groups, lookup))
+                errors.add(_unknown_name(line, groups, lines))
     return elsewhere
 
 
-def check_parameters(
-    lookup: Lookup,
-    groups: list[Group],
-    kinds: Mapping[str, ProtocolAndInterfaces],
-    obstacles: int,
-    errors: ErrorCollector,
-) -> None:
-    """Report keys that name no parameter. Those that name no node are reported before.
+def check_parameters(resolution: Resolution, errors: ErrorCollector) -> None:
+    """Report keys that name no parameter: lines without a row.
 
-    `kinds` are by the names of nodes, and `obstacles` is the number of obstacles that have keys.
+    Those that name no node are reported before.
     """
-    of_node = [key.path for key in NODE_KEYS]
-    of_network = [key.path for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
-    of_network += [obstacle_path(key, index) for index in range(obstacles) for key in OBSTACLE_KEYS]
-    modules: dict[str, list[str]] = {}
-    for path in of_network:
-        module, end = path.split(".", 1)
-        modules.setdefault(module, []).append(end)
-    nodes: dict[ProtocolAndInterfaces, list[str]] = {}
-    for node, kind in kinds.items():
-        nodes.setdefault(kind, []).append(node)
-    below: list[tuple[_Names, Iterable[str]]] = [
-        (_Names(group.size_key for group in groups), [""]),
-        (_Names(group.name for group in groups), [GROUP_SIZE.path]),
-        (_Names(f"{group.name}[0]" for group in groups if group.size == 0), of_node),
-        *((_Names([module]), rests) for module, rests in modules.items()),
-        *((_Names(names), _rests_of(kind)) for kind, names in nodes.items()),
-    ]
-    matched = {
-        candidate.found
-        for names, rests in below
-        for rest in rests
-        for candidate in lookup.candidates(rest).every
-        if _matches(candidate, names, rest, lookup.network)
-    }
-    of_any_node = {candidate.found for rest in of_node for candidate in lookup.candidates(rest).every}
-    all_nodes = _Names(kinds)
-    others = _Names([*NETWORK_MODULES, *(group.name for group in groups if group.size is not None)])
-    for found in lookup.found:
-        if found in matched:
-            continue
-        name, rest = found.name_pattern(), found.rest_pattern()
-        named = {kinds[node] for node in all_nodes.matching(name)} if name else set()
-        is_elsewhere = name is not None and not named and not others.has_match(name)
-        if is_elsewhere and rest and (found in of_any_node or rest.literal_prefix().startswith(_PROTOCOL)):
+    lines, groups = resolution.lines, resolution.groups
+    matched = {line for row in resolution.rows() for line in row.lines}
+    unmatched = [line for line in lines.all if line not in matched]
+    if not unmatched:
+        return
+    named: dict[str, set[type[IProtocol]]] = {}
+    for node, kind in resolution.kinds.items():
+        for text in lines.patterns_of([node]):
+            named.setdefault(text, set()).add(kind.protocol.cls)
+    all_classes = {kind.protocol.cls for kind in resolution.kinds.values()}
+    others = lines.patterns_of(
+        [*NETWORK_MODULES, *(group.name for group in groups if group.size is not None)]
+    )
+    for line in unmatched:
+        name, rest = line.name_pattern, line.rest_pattern
+        text = id_of(name) if name else ""
+        is_elsewhere = name is not None and text not in named and text not in others
+        if is_elsewhere and rest and (_is_of_nodes(rest) or rest.literal_prefix().startswith(_PROTOCOL)):
             continue  # the group is empty, or smaller than this key was written for
-        classes = sorted({kind.protocol for kind in named or nodes}, key=lambda cls: cls.__name__)
-        errors.add(_unknown_parameter(found, groups, classes))
+        classes = sorted(named.get(text) or all_classes, key=lambda cls: cls.__name__)
+        errors.add(_unknown_parameter(line, groups, classes))
 
 
-def _matches(candidate: Candidate, names: _Names, rest: str, network: str) -> bool:
-    """Return whether an entry that can match a rest does so below one of the names."""
-    if candidate.name is not None:
-        return names.has_match(candidate.name)
-    return any(candidate.matches(network, rest, name) for name in names)
-
-
-def _rests_of(kind: ProtocolAndInterfaces) -> list[str]:
-    """Return the paths below a node."""
-    further = [at_interface(key.path, index) for index in range(1, kind.interface_count) for key in WLAN_KEYS]
-    parameters = [f"protocol.{name}" for name in parameters_of(kind.protocol)]
-    return [key.path for key in NODE_KEYS] + further + parameters
+def _is_of_nodes(rest: Pattern) -> bool:
+    return bool(node_schema(1).matching(rest, ""))
 
 
 _PROTOCOL = "protocol."
 
 
-def _sizes_that_lack(lookup: Lookup, groups: Sequence[Group]) -> list[str]:
+def _sizes_that_lack(lines: Lines, groups: Sequence[Group]) -> list[str]:
     """Return `numUavs` and so on, of the groups that keys name and that have no number of nodes."""
     known = {group.name for group in groups}
-    names = (found.parts[1].text.partition("[") for found in lookup.found if found.parts)
+    names = (line.parts[1].text.partition("[") for line in lines.all if line.parts)
     lacking = dict.fromkeys(name for name, bracket, _ in names if bracket and name not in known)
     return [f"num{name[:1].upper()}{name[1:]}" for name in lacking]
 
 
-def _unknown_name(found: Found, groups: Sequence[Group], lookup: Lookup) -> ConfigError:
+def _unknown_name(line: Line, groups: Sequence[Group], lines: Lines) -> ConfigError:
     """Return the error for a key that names no node and no part of the network."""
-    key, source, network = found.entry.key, found.entry.source, lookup.network
-    if not found.parts or not found.parts[0].matches(network):
+    key, source, network = line.entry.key, line.entry.source, lines.network
+    if not line.parts or not line.parts[0].matches(network):
         return ConfigError(
             f"`{key}` does not begin with `*.` or `**.`, nor with the network's name `{network}.`",
             source,
@@ -214,22 +122,22 @@ def _unknown_name(found: Found, groups: Sequence[Group], lookup: Lookup) -> Conf
             suggestion=_nearest_key(key, groups, ()),
         )
     problem = f"`{key}` matches no node"
-    base, bracket, _ = found.parts[1].text.partition("[")
-    if re.fullmatch(r"num(?!ber)[a-z]\w*", base) and len(found.parts) == 2:
+    base, bracket, _ = line.parts[1].text.partition("[")
+    if re.fullmatch(r"num(?!ber)[a-z]\w*", base) and len(line.parts) == 2:
         size = f"*.num{base[3].upper()}{base[4:]}"
         expected = "a capital letter where the group's name begins"
         return NoSuchNodeError(problem, source, expected=expected, suggestion=size)
-    if len(found.parts) == 2 and (size := nearest(base, _sizes_that_lack(lookup, groups))):
+    if len(line.parts) == 2 and (size := nearest(base, _sizes_that_lack(lines, groups))):
         expected = "the number of nodes of a group"
         return NoSuchNodeError(problem, source, expected=expected, suggestion=f"*.{size}")
     match = nearest(base, [*(group.name for group in groups), *NETWORK_MODULES])
     group = next((group for group in groups if group.name == match), None)
     suggestion, hint = "", "" if group else _instead_of_module([base])
     if match and not hint:
-        parts = [found.parts[0].text, group.written if group else match]
-        suggestion = ".".join([*parts, *(part.text for part in found.parts[2:])])
-    elif not hint and not bracket and is_misspelled_class(found.rest_pattern()):
-        suggestion = f"{found.parts[0].text}.{base}.{PROTOCOL_CLASS.path}"
+        parts = [line.parts[0].text, group.written if group else match]
+        suggestion = ".".join([*parts, *(part.text for part in line.parts[2:])])
+    elif not hint and not bracket and is_misspelled_class(line.rest_pattern):
+        suggestion = f"{line.parts[0].text}.{base}.{PROTOCOL_CLASS.path}"
     elif not hint and not bracket:
         suggestion = _nearest_key(key, groups, ())
     if group is not None and group.name == base:
@@ -246,23 +154,15 @@ def _unknown_name(found: Found, groups: Sequence[Group], lookup: Lookup) -> Conf
     return NoSuchNodeError(problem, source, expected=expected, suggestion=suggestion, hint=hint)
 
 
-def is_misspelled_class(rest: Pattern | None) -> bool:
-    """Return whether the rest of a key is a misspelled `protocol.class`."""
-    if rest is None or rest.literal is None or rest.literal == PROTOCOL_CLASS.path:
-        return False
-    paths = [key.path for key in PROTOCOL_KEYS]
-    return rest.literal == "protocol" or nearest(rest.literal, paths, strict=True) == PROTOCOL_CLASS.path
-
-
 def _unknown_parameter(
-    found: Found, groups: Sequence[Group], classes: Sequence[type[IProtocol]]
+    line: Line, groups: Sequence[Group], classes: Sequence[type[IProtocol]]
 ) -> ConfigError:
     """Return the error for a key that names no parameter. `classes` are those of the nodes it names."""
-    key, source = found.entry.key, found.entry.source
-    rest = found.rest_pattern()
-    names_node = found.parts is not None and found.parts[1].text.partition("[")[0] not in NETWORK_MODULES
+    key, source = line.entry.key, line.entry.source
+    rest = line.rest_pattern
+    names_node = line.parts is not None and line.parts[1].text.partition("[")[0] not in NETWORK_MODULES
     if rest is not None and names_node and rest.text.startswith(_PROTOCOL) and classes:
-        return _unknown_protocol_parameter(found, rest, classes)
+        return _unknown_protocol_parameter(line, rest, classes)
     problem, expected = f"`{key}` matches no parameter", "the name of one"
     interface = interface_in(key)
     if interface and _is_of_first_interface(key[interface.end() :]):  # the nearest key would be this one
@@ -272,7 +172,7 @@ def _unknown_parameter(
         expected = "one of an obstacle that `*.environment.numObstacles` counts"
     if hint := _instead_of_module(key.split(".")[1 if key.startswith("**.") else 2 :]):
         return ConfigError(problem, source, expected=expected, hint=hint)
-    suggestion = written_for(_nearest_key(key, groups, classes, _prefix_of_nodes(found, groups)), key)
+    suggestion = written_for(_nearest_key(key, groups, classes, _prefix_of_nodes(line, groups)), key)
     return ConfigError(problem, source, expected=expected, suggestion=suggestion)
 
 
@@ -306,11 +206,11 @@ def _nearest_key(
     return longer[0][1] if is_clear else nearest(key, similar)
 
 
-def _prefix_of_nodes(found: Found, groups: Sequence[Group]) -> str:
+def _prefix_of_nodes(line: Line, groups: Sequence[Group]) -> str:
     """Return the start of keys of the nodes that a key names, `*.uavs[*].`, or "" if it names none."""
-    if not found.parts or len(found.parts) != 3:
+    if not line.parts or len(line.parts) != 3:
         return ""
-    network, name, _ = found.parts
+    network, name, _ = line.parts
     for group in groups:
         if name.literal == group.name:  # with nodes that have an index, it was forgotten
             return f"{network.text}.{group.written}."
@@ -326,10 +226,8 @@ def _lacks_only_parts(key: str, candidate: str) -> bool:
     return wanted[-1] == candidate.rpartition(".")[2] and all(part in remaining for part in wanted)
 
 
-def _unknown_protocol_parameter(
-    found: Found, rest: Pattern, classes: Sequence[type[IProtocol]]
-) -> ConfigError:
-    key, source = found.entry.key, found.entry.source
+def _unknown_protocol_parameter(line: Line, rest: Pattern, classes: Sequence[type[IProtocol]]) -> ConfigError:
+    key, source = line.entry.key, line.entry.source
     name = rest.text.removeprefix(_PROTOCOL)
     parameters = sorted(
         {"class", "typename", *(parameter for cls in classes for parameter in parameters_of(cls))}

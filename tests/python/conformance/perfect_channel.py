@@ -10,9 +10,9 @@ from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
 from gradysim.results.result import RunResult
 from gradysim.scenario.errors import Source
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
+from gradysim.scenario.values import Setting
 
 MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
     "integrated": gradysim.integrated.run.run,

@@ -14,7 +14,7 @@ from gradysim.integrated.network import (
 )
 from gradysim.scenario import Scenario
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.lookup import Setting
+from gradysim.scenario.values import Setting
 
 
 def setting(value, key="key"):

@@ -6,7 +6,8 @@ from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import GROUP_SIZE
-from gradysim.scenario.lookup import Lookup, SettingReader
+from gradysim.scenario.lines import Lines
+from gradysim.scenario.values import SettingReader
 
 
 def groups_of(*sections: str) -> list[Group]:
@@ -20,7 +21,7 @@ def groups_of(*sections: str) -> list[Group]:
             key, _, text = (part.strip() for part in written.partition("="))
             entries.append(Entry(key, text, Source(Path("a.ini"), line, key, text), rank))
     errors = ErrorCollector()
-    groups = find_groups(Lookup(entries), SettingReader(), errors)
+    groups = find_groups(Lines(entries), SettingReader(), errors)
     errors.raise_all()
     return groups
 

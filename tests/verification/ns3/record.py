@@ -16,8 +16,8 @@ from tempfile import TemporaryDirectory
 
 from gradysim.scenario import Scenario
 from gradysim.scenario.ini import read_ini
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.sections import config_names
+from gradysim.scenario.values import Setting
 from verification.reference_run import FOLDER, load_reference
 
 SOURCE = Path(__file__).with_name("stations.cpp")

@@ -3,10 +3,10 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.errors import ConfigError, Source
+from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.expressions import ParameterContext
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.lookup import Setting, SettingReader, is_right_for_all_seeds, read_scalar
+from gradysim.scenario.lines import Lines, Schema
 from gradysim.scenario.parameter_types import (
     choice,
     coordinate,
@@ -17,6 +17,8 @@ from gradysim.scenario.parameter_types import (
     quantity,
     text,
 )
+from gradysim.scenario.schema import Key
+from gradysim.scenario.values import Setting, SettingReader, is_right_for_all_seeds, read_scalar, read_struct
 
 SPEED = quantity("mps", at_least=0)
 MODE = choice("b", "a")
@@ -211,3 +213,45 @@ def test_where_other_lines_count_all_seeds_have_to_be_tried() -> None:
     assert not is_right_for_all_seeds(
         "uniform(0m, 1km)", coordinate()
     )  # for example, of an obstacle, whose top must be above its bottom
+
+
+POWER = Key("radio.power", "radio.power_w", quantity("W"), "")
+LEVEL = Key("radio.level", "radio.power_w", quantity("W"), "")  # another key for the same field
+GAIN = Key("radio.gain", "radio.gain", number(), "")
+OF_MOBILITY = Key("mobility.speed", "mobility.speed_mps", quantity("mps"), "")
+
+
+def radio(*lines: str, node: str = "uavs[0]") -> dict[str, object]:
+    """Return the fields of a node's radio, as set by lines of a file."""
+    entries = [line.partition("=") for line in lines]
+    written = Lines(
+        [
+            Entry(key, text, Source(Path("a.ini"), number, key))
+            for number, (key, _, text) in enumerate(entries)
+        ]
+    )
+    schema = Schema({key.path: key for key in (POWER, LEVEL, GAIN, OF_MOBILITY)})
+    errors = ErrorCollector()
+    rows = written.rows(written.names(node), schema).values()
+    settings = read_struct("radio", rows, SettingReader(), errors, f"{node}.")
+    errors.raise_all()
+    return {field: setting.value for field, setting in settings.items()}
+
+
+def test_only_what_is_set_of_that_struct_is_a_field() -> None:
+    assert radio("*.uavs[*].radio.gain=3", "*.uavs[*].mobility.speed=4mps") == {"gain": 3}
+
+
+def test_of_two_keys_for_one_field_the_first_line_is_in_force() -> None:
+    power, level = "*.uavs[*].radio.power=1W", "*.uavs[*].radio.level=2W"
+    assert (radio(power, level), radio(level, power)) == ({"power_w": 1}, {"power_w": 2})
+
+
+def test_a_default_that_comes_first_keeps_the_other_line_out() -> None:
+    assert radio("*.uavs[*].radio.level=default", "*.uavs[*].radio.power=1W") == {}
+
+
+def test_each_node_draws_its_own() -> None:
+    """The path of the parameter distinguishes the nodes."""
+    line = "*.uavs[*].radio.gain=uniform(0, 1)"
+    assert len({radio(line, node=f"uavs[{number}]")["gain"] for number in range(3)}) == 3
