@@ -30,8 +30,8 @@ def campaign_of(
         OSError: The runs cannot be kept.
         SystemExit: After a signal, with the exit code of the command.
     """
+    from gradysim.cli.fork_executor import ForkExecutor
     from gradysim.cli.interrupt import StopOnInterrupt
-    from gradysim.cli.runner import ForkExecutor
     from gradysim.ladder.campaign import Campaign
     from gradysim.ladder.kept_runs import KeptRuns
     from gradysim.scenario.errors import ArgumentNames, ConfigError

@@ -1,9 +1,9 @@
 """Ctrl-C, SIGTERM and SIGHUP during runs, and the time of --stop-after.
 
-Ctrl-C is a request to stop: the first press sets a flag, the second one raises KeyboardInterrupt. A run stops
-between two of its slices and keeps its results. A second press leaves a callback that never returns. While
-worker processes carry out the runs, a third press kills them. SIGTERM, SIGHUP and the end of the time do the
-same. They come once, so the next presses come by themselves.
+Each is a press. The first one sets a flag: a run stops between two of its slices and keeps its results. The
+second one raises KeyboardInterrupt in the process of the run, to leave a callback that never returns. The
+third one raises it in the command, which kills its worker processes. Only Ctrl-C has to be pressed again. The
+other signals and the end of the time come once, so their next presses come by themselves.
 """
 
 import contextlib
@@ -12,13 +12,14 @@ import signal
 import threading
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator
+from math import inf
 from types import FrameType
 from typing import Any, Self
 
 from gradysim.cli.errors import INCOMPLETE, INTERRUPTED, OK
 
 FORWARDED = signal.SIGUSR1 if hasattr(signal, "SIGUSR1") else signal.SIGINT
-"""What the command sends its workers when Ctrl-C is pressed.
+"""What the command sends its workers at each press.
 
 It differs from SIGINT, which a terminal sends to the command and to its workers: a worker that gets both
 must count one press.
@@ -28,6 +29,9 @@ STOPPING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP
 """Signals that ask a command to stop."""
 
 WATCHED = (*STOPPING, FORWARDED)
+
+KILLING = 3
+"""Number of presses after which no worker process goes on."""
 
 _ONCE = [number for number in STOPPING if number != signal.SIGINT]
 """The kernel, the shell and others may send the same signal. The next presses come automatically."""
@@ -58,29 +62,30 @@ class StopOnInterrupt:
     Python allows no signal handlers, the flag is never set.
 
     Attributes:
-        workers: Ids of the processes that each press is forwarded to; None if this process executes the runs.
+        workers: Ids of the processes that each press is forwarded to.
         exit_code: Exit code of a stopped command: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP, 5
             after the time of --stop-after.
     """
 
-    def __init__(self, stop_after_s: float | None = None, *, grace_s: float | None = None) -> None:
+    def __init__(
+        self, stop_after_s: float | None = None, *, raises_at: int = 2, grace_s: float | None = None
+    ) -> None:
         """Prepare.
 
         Args:
             stop_after_s: Wall time in seconds from entry to a press; None for no such press.
+            raises_at: Number of presses that raises KeyboardInterrupt.
             grace_s: For a command that has no results to write: wall time in seconds from the first press of
                 any kind to KeyboardInterrupt, and from there to the end of the process. None for no limit.
         """
         self._stop_after_s = stop_after_s
+        self._raises_at: float = raises_at
         self._grace_s = grace_s
-        self.workers: Collection[int] | None = None
+        self.workers: Collection[int] = ()
         self.exit_code = INTERRUPTED
         self._presses: Counter[int] = Counter()
         self._pid = os.getpid()
         self._in_worker = False
-        self._is_executing = False
-        self._at_once = False
-        self._has_timer = False
         self._previous: dict[signal.Signals, Any] = {}
         self._terminals: list[int] = []
 
@@ -95,8 +100,12 @@ class StopOnInterrupt:
         return self.presses > 0
 
     def become_worker(self) -> None:
-        """Handle presses in a process forked from the command, which has the other end."""
+        """Handle presses in a process forked from the command, which has the other end.
+
+        They raise in blocks of `at_once` and `executing` only, since a worker has results to write.
+        """
         self.workers = ()
+        self._raises_at = inf
         self._in_worker = True
         self._pid = os.getpid()
         self._terminals = _terminals()
@@ -108,24 +117,25 @@ class StopOnInterrupt:
         """Raise at the first press inside the block: a run that is being built has no results to keep."""
         if self.should_stop():
             raise KeyboardInterrupt
-        self._at_once = True
-        try:
+        with self._raising_at(1):
             yield
-        finally:
-            self._at_once = False
 
     @contextlib.contextmanager
     def executing(self) -> Iterator[None]:
-        """Raise at the second press in a worker, inside the block.
+        """Raise at the second press inside the block."""
+        try:
+            with self._raising_at(2):
+                yield
+        finally:
+            self._end_if_forked()
 
-        Afterwards it does not: results are written.
-        """
-        self._is_executing = True
+    @contextlib.contextmanager
+    def _raising_at(self, presses: int) -> Iterator[None]:
+        before, self._raises_at = self._raises_at, presses
         try:
             yield
         finally:
-            self._is_executing = False
-            self._end_if_forked()
+            self._raises_at = before
 
     def __enter__(self) -> Self:
         if threading.current_thread() is threading.main_thread():
@@ -140,7 +150,7 @@ class StopOnInterrupt:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._has_timer:
+        if _ALARM in self._previous:
             signal.setitimer(signal.ITIMER_REAL, 0)
         for number, handler in self._previous.items():
             signal.signal(number, handler)
@@ -155,44 +165,37 @@ class StopOnInterrupt:
         self._presses[number] = 1 if number in _ONCE else self._presses[number] + 1
         self._leave_dead_terminals()
         if self.presses > before:  # otherwise another sender has reported this press
-            self._press(number, before + 1)
+            self._press(number, self.presses)
 
     def _press(self, number: int, presses: int) -> None:
         if presses == 1:
             self.exit_code = INCOMPLETE if number == _ALARM else 128 + number
-        raises = self._raises_at(presses)
+        raises = presses >= self._raises_at
         if raises and not self._in_worker:
             for each in self._previous:
                 signal.signal(each, signal.SIG_IGN)  # another one would interrupt the exit
             if self._grace_s is not None:
                 self._alarm_after(self._grace_s, self._end_now)
-        for worker in self.workers or ():
+        for worker in self.workers:
             with contextlib.suppress(ProcessLookupError):
                 os.kill(worker, FORWARDED)
         if raises:
             raise KeyboardInterrupt
-        if not self._in_worker:
-            if self._grace_s is not None:
-                self._alarm_after(self._grace_s, self._on_alarm)
-                return
-            if number != signal.SIGINT:
-                self._alarm_after(_GRACE_S.get(presses, 0.0), self._on_alarm)
-            if presses == 1:
-                with contextlib.suppress(OSError):  # sys.stderr may be in the middle of a line
-                    os.write(_ERROR_OUTPUT, _REPLIES.get(number, _REPLY))
-
-    def _raises_at(self, presses: int) -> bool:
-        if self._at_once:
-            return True
-        if self._is_executing:
-            return presses > 1
-        return not self._in_worker and presses > (1 if self.workers is None else 2)
+        if self._in_worker:
+            return
+        if self._grace_s is not None:
+            self._alarm_after(self._grace_s, self._on_alarm)
+            return
+        if number != signal.SIGINT:
+            self._alarm_after(_GRACE_S.get(presses, 0.0), self._on_alarm)
+        if presses == 1:
+            with contextlib.suppress(OSError):  # sys.stderr may be in the middle of a line
+                os.write(_ERROR_OUTPUT, _REPLIES.get(number, _REPLY))
 
     def _alarm_after(self, duration_s: float, handler: Callable[[int, FrameType | None], None]) -> None:
         """Call a handler of SIGALRM after a wall time in seconds; 0 for never."""
         before = signal.signal(signal.SIGALRM, handler)
         self._previous.setdefault(signal.SIGALRM, before)
-        self._has_timer = True
         signal.setitimer(signal.ITIMER_REAL, duration_s)
 
     def _end_now(self, _number: int, _frame: FrameType | None) -> None:

@@ -1,13 +1,12 @@
 """`gradysim run`: checks the runs of a configuration, executes them, and reports their results."""
 
 import gc
-import itertools
 import os
 import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack, closing, nullcontext, redirect_stdout
+from contextlib import ExitStack, nullcontext, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -26,14 +25,13 @@ from gradysim.cli.share import part_of_share
 from gradysim.cli.until import Until, checked_until, rounds_of
 
 if TYPE_CHECKING:
-    from concurrent.futures import Executor, Future
+    from concurrent.futures import Executor
 
     from rich.console import Console
 
     from gradysim.cli.execution import Run
-    from gradysim.cli.executors import Workers
-    from gradysim.cli.run_task import Reported, RunTask
-    from gradysim.cli.runner import ForkExecutor
+    from gradysim.cli.executor import RunExecutor, Workers
+    from gradysim.cli.run_task import Command
     from gradysim.scenario.load import Study
     from gradysim.scenario.scenario import Scenario
 
@@ -60,12 +58,14 @@ class _Prepared(NamedTuple):
         left: Positions of the runs to execute.
         until: Condition of --until.
         build: Builds a run, ready to execute.
+        command: What its processes need.
     """
 
     study: "Study"
     left: Sequence[int]
     until: Until | None
     build: "Callable[[Scenario], Run]"
+    command: "Command"
 
 
 def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None) -> int:
@@ -74,10 +74,11 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     Args:
         file: The .ini file.
         options: Options of the command. With an executor, `jobs` is the number of its workers.
-        executor: Executes groups of runs; the caller shuts it down. Its workers read the file themselves, so
+        executor: Executes batches of runs; the caller shuts it down. Its workers read the file themselves, so
             they need the same directories and packages. By default each run has a process of this machine.
     """
-    from gradysim.cli.executors import Workers, check_executor, workers_of
+    from gradysim.cli.dask_workers import check_executor, dask_workers
+    from gradysim.cli.workers import ExecutorWorkers
     from gradysim.execution.run_lock import remove_left_over_files
     from gradysim.integrated.compiled_part import CompiledPartMissingError
     from gradysim.scenario.errors import ConfigError
@@ -93,14 +94,15 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
                 if options.is_writer:  # a killed command may have left some after its last run
                     remove_left_over_files(options.directory)
                 return OK
+            workers: Workers | None = None
             if executor is not None:
-                workers: Workers | None = Workers(executor, options.jobs)
-            else:
-                workers = connection.enter_context(workers_of(options))
+                workers = ExecutorWorkers(executor, options.jobs, prepared.command)
+            elif options.executor == "dask":
+                workers = connection.enter_context(dask_workers(prepared.command))
         except (ConfigError, CompiledPartMissingError, OSError) as mistake:
             return say_mistake(mistake)
         left_s = None if stop_after_s is None else stop_after_s - (time.monotonic() - begin_s)
-        return _execute(file, options, prepared, workers, left_s)
+        return _execute(prepared, workers, left_s)
 
 
 def run_study(
@@ -120,7 +122,7 @@ def run_study(
     gc.freeze()  # as `run_file`
     try:
         prepared = _prepare(file, options, study)
-        return OK if prepared is None else _execute(file, options, prepared, on_progress=on_progress)
+        return OK if prepared is None else _execute(prepared, on_progress=on_progress)
     finally:
         gc.unfreeze()
 
@@ -129,6 +131,7 @@ def _prepare(file: Path, options: RunOptions, study: "Study | None" = None) -> _
     """Read and check the study; None if no run is left. Raises ConfigError and OSError."""
     from gradysim.cli.execution import check_names, simulator
     from gradysim.cli.progress import waiting
+    from gradysim.cli.run_task import Command
     from gradysim.scenario.errors import ErrorCollector
 
     bar = _has_bar(options)
@@ -164,33 +167,29 @@ def _prepare(file: Path, options: RunOptions, study: "Study | None" = None) -> _
                     check_network(scenario, is_built_next=len(left) == 1)
             errors.raise_all()
         tell(findings_of(checked, options.mode))
-    return _Prepared(study, left, until, build)
+    command = Command.of(file, options, study, first=study.numbers[left[0]])
+    return _Prepared(study, left, until, build, command)
 
 
 def _execute(
-    file: Path,
-    options: RunOptions,
     prepared: _Prepared,
     workers: "Workers | None" = None,
     left_s: float | None = None,
     on_progress: Callable[[int, int], None] | None = None,
 ) -> int:
-    """Execute the runs by workers or by processes of this machine, and return the exit code.
+    """Execute the runs by workers, by default processes of this machine, and return the exit code.
 
     `left_s` is the wall time in seconds until the command stops; None for no end. Scripts get `on_progress`,
     which is that of `run_study`.
     """
-    from gradysim.cli.group import Group
-    from gradysim.cli.group_executor import GroupExecutor
-    from gradysim.cli.interrupt import StopOnInterrupt
-    from gradysim.cli.run_task import LineStart, RunTask, import_what_runs_use
-    from gradysim.cli.runner import ForkExecutor
+    from gradysim.cli.executor import RunExecutor
+    from gradysim.cli.interrupt import KILLING, StopOnInterrupt
+    from gradysim.cli.run_task import RunTask, import_what_runs_use
+    from gradysim.cli.workers import ForkedWorkers
     from gradysim.execution.run_lock import remove_left_over_files, remove_lock_file
 
-    study, left, _, build = prepared
-    has_lines = len(study) > 1 and not options.details
-    line = LineStart.of(study) if has_lines else None
-    first = study.numbers[left[0]]
+    study, _, _, build, command = prepared
+    options = command.options
     report_crashes()
     if options.is_writer and not remove_left_over_files(options.directory):
         print(
@@ -198,59 +197,36 @@ def _execute(
             " commands stay there",
             file=sys.stderr,
         )
-    interrupt = StopOnInterrupt(left_s)
-    if workers is None:
-        interrupt.workers = ()  # no process executes runs yet, and this one never does
-    with interrupt:
+    with StopOnInterrupt(left_s, raises_at=KILLING) as interrupt:
         if workers is None:
             is_alone = _has_bar(options) and options.jobs == 1 and not options.trace
             terminal = error_terminal() if is_alone else None
             import_what_runs_use(options)
-            task = RunTask(study, options, build, interrupt, first, line, terminal)
-            with ForkExecutor(options.jobs, interrupt, captures=on_progress is not None) as forks:
-                submit = _submitter(forks, task, len(left), on_progress)
-                code = _run_rounds(prepared, options, submit)
-        else:
-            group = Group.of(file, options, first, line)
-            with closing(GroupExecutor(workers, group, interrupt)) as groups:
-                code = _run_rounds(prepared, options, lambda place: groups.submit(study.numbers[place]))
+            task = RunTask(command, study, build, interrupt, terminal)
+            workers = ForkedWorkers(task, options.jobs, interrupt, captures=on_progress is not None)
+        with RunExecutor(workers, interrupt) as executor:
+            code = _run_rounds(prepared, executor, on_progress)
         if options.is_writer:
             remove_lock_file(options.directory)
     if code == INTERRUPTED:
         code = interrupt.exit_code
+    has_lines = command.line_widths is not None
     if code == OK and has_lines and options.is_writer and not (options.as_json or options.quiet):
         print(f"files in {options.directory}")
     return code
 
 
-def _submitter(
-    forks: "ForkExecutor", task: "RunTask", count: int, on_progress: Callable[[int, int], None] | None
-) -> "Callable[[int], Future[Reported]]":
-    """Return a function that submits the run at a position; at its end, `on_progress` is called."""
-    ended = itertools.count(1)
-
-    def report(future: "Future[Reported]") -> None:
-        if on_progress is not None and not future.cancelled():
-            on_progress(next(ended), count)
-
-    def submit(place: int) -> "Future[Reported]":
-        future = forks.submit(task, place)
-        future.add_done_callback(report)
-        return future
-
-    if on_progress is not None:
-        on_progress(0, count)
-    return submit
-
-
-def _run_rounds(prepared: _Prepared, options: RunOptions, submit: "Callable[[int], Future[Reported]]") -> int:
-    """Submit the runs that are left, round by round with --until, and return the exit code."""
+def _run_rounds(
+    prepared: _Prepared, executor: "RunExecutor", on_progress: Callable[[int, int], None] | None
+) -> int:
+    """Compute the runs that are left, round by round with --until, and return the exit code."""
     from gradysim.cli.run_all import run_all
     from gradysim.scenario.errors import ConfigError
 
+    study, left, until, _, command = prepared
     try:
-        for places in rounds_of(prepared.study, prepared.left, prepared.until, options):
-            code = run_all(prepared.study, places, submit)
+        for places in rounds_of(study, left, until, command.options):
+            code = run_all(study.config, [study.numbers[place] for place in places], executor, on_progress)
             if code != OK:
                 return code
     except (ConfigError, OSError) as mistake:

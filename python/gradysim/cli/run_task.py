@@ -2,22 +2,32 @@
 
 import gc
 import os
+import shutil
 import sys
-from collections.abc import Callable
+from bisect import bisect_left
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, ExitStack, chdir, nullcontext, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import gradysim.results.omnetpp  # noqa: F401 (before processes are forked)
 from gradysim.cli.earlier_results import is_done, is_of_other_settings
 from gradysim.cli.errors import INTERRUPTED, LOCKED, MISTAKE, OK, OVER_MEMORY, say_mistake
+from gradysim.cli.execution import execute, report, simulator
+from gradysim.cli.fork_executor import keep_from_forks
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import check_outputs, files_under_way, remove_files_under_way, write_files
-from gradysim.cli.runs import tell
+from gradysim.cli.runs import check, tell
+from gradysim.execution.run_lock import RunLockedError, run_locked
+from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
+from gradysim.results.files import run_file
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.runs import text_of_runs
+from gradysim.scenario.sweep import text_of_iterations
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -31,59 +41,77 @@ Reported = tuple[int, OSError | None]
 
 
 @dataclass(frozen=True)
-class LineStart:
-    """The beginning of the line about a run. All lines of a study have the same widths."""
+class Command:
+    """What the runs of a command have in common, for processes that know nothing else.
 
-    number_width: int
-    values_width: int
+    Attributes:
+        file: The .ini file.
+        options: Options of the command.
+        first: Number of the run whose lint findings are printed.
+        line_widths: Widths of the number and of the values in the line about a run. None to print its full
+            summary.
+        directory: Working directory of the command.
+        columns: Width of its terminal; None without one.
+        id: Identifies the command.
+    """
+
+    file: Path
+    options: RunOptions
+    first: int
+    line_widths: tuple[int, int] | None
+    directory: str
+    columns: int | None
+    id: str
 
     @staticmethod
-    def of(study: "Study") -> "LineStart":
-        """Return the widths for these runs."""
-        return LineStart(len(str(study.numbers[-1])), study.width_of_iterations())
+    def of(file: Path, options: RunOptions, study: "Study", first: int) -> "Command":
+        """Return the command that this process executes, whose first run has the number `first`."""
+        has_lines = len(study) > 1 and not options.details
+        widths = (len(str(study.numbers[-1])), study.width_of_iterations()) if has_lines else None
+        has_width = "COLUMNS" in os.environ or sys.stdout.isatty()
+        columns = shutil.get_terminal_size().columns if has_width else None
+        return Command(file, options, first, widths, os.getcwd(), columns, os.urandom(8).hex())
 
-    def text(self, scenario: "Scenario") -> str:
-        """Return the configuration, the number and the values of a run."""
-        from gradysim.scenario.sweep import text_of_iterations
-
+    def line_of(self, scenario: "Scenario") -> str | None:
+        """Return the beginning of the line about a run; None to print its full summary."""
+        if self.line_widths is None:
+            return None
+        number, width = self.line_widths
         values = f"{text_of_iterations(scenario.iterations)} #{scenario.repetition}".lstrip()
-        return (
-            f"{scenario.config} run {scenario.run_number:{self.number_width}}  {values:{self.values_width}}"
-        )
+        return f"{scenario.config} run {scenario.run_number:{number}}  {values:{width}}"
 
 
 @dataclass(frozen=True)
 class RunTask:
-    """Executes the runs of a study, each in a forked process, and reports their results.
+    """Executes runs of a study, each in a forked process, and reports their results.
 
     Attributes:
+        command: What the runs have in common.
         study: The runs.
-        options: Options of the command.
         build: Builds a run, ready to execute.
         interrupt: Ctrl-C, and other signals.
-        first: Number of the run whose lint findings are printed.
-        line: Beginning of the line about a run; None to print its full summary.
         terminal: Terminal for a progress bar.
     """
 
+    command: Command
     study: "Study"
-    options: RunOptions
     build: "Callable[[Scenario], Run]"
     interrupt: StopOnInterrupt
-    first: int
-    line: LineStart | None
     terminal: "Console | None" = None
 
-    def __call__(self, place: int) -> Reported:
-        """Execute the run at a position of the study, write its files, and print its results."""
-        from gradysim.cli.execution import execute, report
-        from gradysim.cli.runner import keep_from_forks
-        from gradysim.execution.run_lock import RunLockedError
-        from gradysim.integrated.compiled_part import CompiledPartMissingError
-        from gradysim.scenario.errors import ConfigError
+    @staticmethod
+    def of(command: Command, numbers: Sequence[int], interrupt: StopOnInterrupt) -> "RunTask":
+        """Return the task of the runs of these numbers, read from the file. Raises ConfigError."""
+        options = replace(command.options, runs=text_of_runs(numbers), share=None)
+        study = check(command.file, options.config, options.runs, options.settings, options.seed)
+        _, build = simulator(options)
+        import_what_runs_use(options)
+        return RunTask(replace(command, options=options), study, build, interrupt)
 
+    def __call__(self, number: int) -> Reported:
+        """Execute the run of this number, write its files, and print its results."""
         gc.enable()
-        options, number = self.options, self.study.numbers[place]
+        command, options = self.command, self.command.options
         name = f"{self.study.config} run {number}"
         memory_bytes = checked_limit(options.memory)
         try:
@@ -91,26 +119,23 @@ class RunTask:
                 with self.interrupt.at_once():  # while it waits for a command that packs
                     at_end.enter_context(self._lock(number))
                 with redirect_stdout(sys.stderr) if options.as_json else nullcontext(), chdir("."):
-                    scenario = self.study[place]
+                    scenario = self.study[bisect_left(self.study.numbers, number)]
                     check_outputs(scenario, options)
+                    done = f"{name}: another process has done it"
                     if options.resume and is_done(scenario, options):
-                        print(f"{name}: another process has done it; left out", file=sys.stderr)
+                        print(f"{done}; left out", file=sys.stderr)
                         return OK, None
                     if is_of_other_settings(scenario, options):
-                        print(
-                            f"{name}: another process has done it with other settings; left out",
-                            file=sys.stderr,
-                        )
+                        print(f"{done} with other settings; left out", file=sys.stderr)
                         return MISTAKE, None
                     at_end.callback(remove_files_under_way, scenario, options)
                     if hasattr(os, "fork"):
                         keep_from_forks(files_under_way(scenario, options))
                     outcome = execute(self.build, scenario, self.interrupt, self.terminal, memory_bytes)
-                if number == self.first:
+                if number == command.first:
                     tell(outcome.findings)
                 write = partial(write_files, scenario, options=options)
-                line = None if self.line is None else self.line.text(scenario)
-                code, output_error = report(outcome, write, options, line)
+                code, output_error = report(outcome, write, options, command.line_of(scenario))
         except RunLockedError as locked:
             print(f"{name}: {locked}; left out", file=sys.stderr)
             return LOCKED, None
@@ -125,23 +150,15 @@ class RunTask:
 
     def _lock(self, number: int) -> AbstractContextManager[None]:
         """Return the lock of a run, if it writes files. Its `with` statement raises RunLockedError."""
-        from gradysim.execution.run_lock import run_locked
-        from gradysim.results.files import run_file
-
-        options = self.options
+        options = self.command.options
         if not options.is_writer:
             return nullcontext()
         return run_locked(options.directory, run_file(Path(), self.study.config, number, options.mode).name)
 
 
 def import_what_runs_use(options: RunOptions) -> None:
-    """Import the modules that report a run before a process is forked for each run."""
-    names = []
+    """Import what each run would import after its fork otherwise. Raises CompiledPartMissingError."""
+    if options.mode == "integrated":
+        load_netsim()
     if not (options.as_json or options.quiet):
-        names += ["gradysim.cli.console", "gradysim.cli.summary"]
-    if options.writes_files:
-        names.append("gradysim.results.files")
-    if options.scalars or options.vectors:
-        names.append("gradysim.results.omnetpp")
-    for name in names:
-        import_module(name)
+        import gradysim.cli.summary  # noqa: F401

@@ -53,13 +53,13 @@ ONE_ENDS = (
 """A study of four runs: the first one ends at once, and the others never do."""
 
 WITHOUT_PATIENCE = (
-    "import sys; from gradysim.cli import app, executors; executors.WITHOUT_WORKERS_S = 0.5;"
+    "import sys; from gradysim.cli import app, dask_workers; dask_workers.WITHOUT_WORKERS_S = 0.5;"
     " sys.exit(app.main())"
 )
 """The command that does not wait for workers for 30 s."""
 
 IMPATIENT = (
-    "import sys; from gradysim.cli import app, executors; executors.ANSWERS_WITHIN_S = 3.0;"
+    "import sys; from gradysim.cli import app, dask_workers; dask_workers.ANSWERS_WITHIN_S = 3.0;"
     " sys.exit(app.main())"
 )
 """The command that does not wait for the answer of a scheduler for 30 s."""

@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from gradysim.cli.interrupt import FORWARDED, StopOnInterrupt
+from gradysim.cli.interrupt import FORWARDED, KILLING, StopOnInterrupt
 from python.cli.command import environment
 
 
@@ -100,7 +100,7 @@ def test_in_another_thread_it_does_no_harm():
 def test_presses_are_passed_on_to_workers_and_the_third_one_raises(monkeypatch):
     sent = []
     monkeypatch.setattr(os, "kill", lambda *signal: sent.append(signal))
-    with StopOnInterrupt() as interrupt:
+    with StopOnInterrupt(raises_at=KILLING) as interrupt:
         interrupt.workers = [11, 12]
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)

@@ -12,7 +12,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
-from gradysim.cli.executors import WITHOUT_WORKERS_S
+from gradysim.cli.dask_workers import WITHOUT_WORKERS_S
 from gradysim.cli.run_all import text_of_unfinished
 
 GUIDE = "docs/how-to/run-on-a-cluster.md"

@@ -45,7 +45,7 @@ Usually 0.1; longer on a busy machine.
 _COUNTS = struct.Struct("@LLL")
 _IMPORTED = (
     *("gradysim._netsim", "gradysim.integrated.run", "gradysim.integrated.network_lint", "sqlite3"),
-    *("gradysim.cli.app", "gradysim.cli.group_executor", "gradysim.cli.run_all", "gradysim.cli.progress"),
+    *("gradysim.cli.app", "gradysim.cli.workers", "gradysim.cli.run_all", "gradysim.cli.progress"),
     *("gradysim.execution.packing", "gradysim.plots", "gradysim.cli.plot", "matplotlib.font_manager"),
     "matplotlib.backends.backend_svg",
 )

@@ -1,14 +1,16 @@
-"""Workers of `gradysim run --executor`, other than processes of this machine."""
+"""Workers of `gradysim run --executor dask`: those of a Dask cluster."""
 
 import contextlib
 import logging
 import sys
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import Executor, Future
+from collections.abc import Iterable, Iterator
 from typing import Any
 
+from gradysim.cli.executor import Batch, WorkersLostError
 from gradysim.cli.options import RunOptions
+from gradysim.cli.run_task import Command
+from gradysim.cli.workers import ExecutorWorkers, press
 
 ANSWERS_WITHIN_S = 30.0
 """Wall time in seconds until a scheduler that does not answer is lost."""
@@ -20,45 +22,12 @@ WITHOUT_WORKERS_S = 30.0
 """Wall time in seconds until a cluster without workers is lost."""
 
 
-class WorkersLostError(Exception):
-    """No worker computes the groups that have begun, or it cannot report them."""
-
-
-class Workers:
-    """The workers of any executor, such as a pool of processes.
-
-    Attributes:
-        executor: It computes groups.
-    """
-
-    def __init__(self, executor: Executor, count: int) -> None:
-        """`count` groups are computed at the same time."""
-        self.executor = executor
-        self._count = count
-
-    def count(self) -> int:
-        """Return how many groups are computed at the same time. Raises WorkersLostError."""
-        return self._count
-
-    def lost(self) -> WorkersLostError:
-        """Return the error after a group was canceled by the executor."""
-        return WorkersLostError("the executor has canceled its tasks")
-
-    def cancel(self, group: "Future[Any]") -> bool:
-        """Cancel a group, and return False if it may have begun."""
-        return group.cancel()
-
-    def call_each(self, function: Callable[..., object], *arguments: object) -> None:
-        """Call a function in the processes of the workers, of which this executor reaches only this one."""
-        function(*arguments)
-
-
-class _DaskWorkers(Workers):
+class _DaskWorkers(ExecutorWorkers):
     """The workers of a Dask cluster, of which some may come and go."""
 
-    def __init__(self, client: Any, name: str) -> None:
+    def __init__(self, client: Any, name: str, command: Command) -> None:
         """`name` is that of the cluster, for messages."""
-        super().__init__(client.get_executor(pure=False), 0)
+        super().__init__(client.get_executor(pure=False), 0, command)
         self._client = client
         self._name = name
         self._seen_s = time.monotonic()
@@ -78,16 +47,17 @@ class _DaskWorkers(Workers):
             )
         return sum(threads.values())
 
+    def stop(self, batches: Iterable[Batch], presses: int) -> list[Batch]:
+        self.press(presses)
+        return []  # Dask cancels also what a worker goes on to compute
+
     def lost(self) -> WorkersLostError:
         self._is_lost = True
         return WorkersLostError(f"{self._name}: the scheduler does not answer any more")
 
-    def cancel(self, group: "Future[Any]") -> bool:
-        return False  # Dask cancels also what a worker goes on to compute
-
-    def call_each(self, function: Callable[..., object], *arguments: object) -> None:
+    def press(self, presses: int) -> None:
         async def call() -> None:  # `Client.run` outside the event loop has no time limit
-            await self._client.run(function, *arguments, on_error="ignore")
+            await self._client.run(press, self._command.id, presses, on_error="ignore")
 
         if not self._is_lost:
             with contextlib.suppress(OSError):  # `count` reports it
@@ -117,19 +87,17 @@ def check_executor(options: RunOptions) -> None:
 
 
 @contextlib.contextmanager
-def workers_of(options: RunOptions) -> Iterator[Workers | None]:
-    """Connect to the workers of --executor; None for processes of this machine. Raises ConfigError.
+def dask_workers(command: Command) -> Iterator[ExecutorWorkers]:
+    """Connect to the workers of --executor dask. Raises ConfigError.
 
-    Without --scheduler, they are threads of this process. Each group has a process, which ends with this one.
+    Without --scheduler, they are threads of this process. Each batch has a process, which ends with this one.
     """
-    if options.executor != "dask":
-        yield None
-        return
     import distributed
 
     from gradysim.scenario.errors import ConfigError
 
     dask: Any = distributed  # its classes are not typed
+    options = command.options
     for logger in ("distributed", "distributed.client"):  # the command reports a lost cluster
         logging.getLogger(logger).setLevel(logging.CRITICAL)
     with contextlib.ExitStack() as connection:
@@ -155,4 +123,4 @@ def workers_of(options: RunOptions) -> Iterator[Workers | None]:
             client = dask.Client(where, timeout=ANSWERS_WITHIN_S, set_as_default=False)
         except (OSError, ValueError) as error:
             raise ConfigError(f"{name}: {error}; expected the address of a Dask scheduler") from error
-        yield connection.enter_context(contextlib.closing(_DaskWorkers(client, name)))
+        yield connection.enter_context(contextlib.closing(_DaskWorkers(client, name, command)))

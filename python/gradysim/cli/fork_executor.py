@@ -1,6 +1,6 @@
-"""Executor of runs: each run has a fresh fork of this process, so that runs do not affect each other.
+"""Executor of calls: each has a fresh fork of this process, so that they do not affect each other.
 
-A forked process has the engine, the scenario and the protocols loaded. Nothing has to be passed to it.
+A forked process has the engine, the scenarios and the protocols loaded. Nothing has to be passed to it.
 """
 
 import contextlib
@@ -15,11 +15,10 @@ import traceback
 from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryFile
-from typing import IO, Any, NoReturn, ParamSpec, TextIO, TypeVar
+from typing import IO, Any, NamedTuple, NoReturn, ParamSpec, TextIO, TypeVar
 
 from gradysim.cli.guardian import HAS_GUARDIANS, end, fork_guarded
 from gradysim.cli.interrupt import WATCHED, StopOnInterrupt
@@ -31,7 +30,7 @@ _WRITTEN_TO = (io.TextIOWrapper, io.BufferedWriter)
 
 
 class WorkerError(Exception):
-    """The process of a run could not start, or ended before the run did.
+    """The process of a call could not start, or ended before the call did.
 
     Attributes:
         exit_code: Exit code of the process, or the negative number of the signal that killed it. None if it
@@ -46,11 +45,11 @@ class WorkerError(Exception):
         return str(self.args[0])
 
 
-class RunFuture(Future[T]):
-    """Future of a task. `result()` runs the executor, which has no thread: it calls `advance`.
+class ForkFuture(Future[T]):
+    """Future of a call. `result()` runs the executor, which has no thread: it calls `advance`.
 
     Attributes:
-        printed: Output of the task to standard output and standard error; empty if it was not captured.
+        printed: Output of the call to standard output and standard error; empty if it was not captured.
     """
 
     def __init__(self, advance: Callable[[], None]) -> None:
@@ -59,52 +58,49 @@ class RunFuture(Future[T]):
         self._advance = advance
 
     def result(self, timeout: float | None = None) -> T:
-        """Wait for the task to end, and return what it returned or raise what it raised."""
+        """Wait for the call to end, and return what it returned or raise what it raised."""
         while not self.done():
             self._advance()
         return super().result(timeout)
 
 
-@dataclass(frozen=True)
-class _Worker:
-    """A running process, and its output files."""
+class _Worker(NamedTuple):
+    """A running process: one end of the pipe of its return value, and its output if that is captured."""
 
-    future: RunFuture[Any]
+    future: ForkFuture[Any]
     returned: IO[bytes]
-    """One end of a pipe: the read end here, the write end in the worker."""
-    printed: tuple[IO[bytes], ...]
-    """Its standard output and standard error, if they are captured."""
+    printed: Collection[IO[bytes]]
 
 
 class ForkExecutor(Executor):
-    """Calls each task in a separate forked process, `jobs` at a time.
+    """Executes each call in a separate forked process, `jobs` at a time.
 
-    Tasks start in the order of submission. A process that dies fails its own task only. So does an exception,
-    whose traceback is printed. The return value of a task must fit into a pipe: 64 kB at most. On Linux,
-    workers end with this process, and what tasks start ends with their worker. After Ctrl-C no task starts:
-    pending tasks are canceled.
+    Calls start in the order of submission. A process that dies fails its own call only. So does an exception,
+    whose traceback is printed. The return value of a call must fit into a pipe: 64 kB at most. On Linux,
+    workers end with this process, and what calls start ends with their worker.
 
-    The output of tasks is captured if several print at once, or if the streams of this process are not files:
-    see `RunFuture.printed`. If the system cannot fork, tasks are called in this process.
+    The output of calls is captured if several print at once, or if the streams of this process are not files:
+    see `ForkFuture.printed`. If the system cannot fork, calls are executed in this process.
     """
 
     def __init__(self, jobs: int, interrupt: StopOnInterrupt, *, captures: bool = False) -> None:
-        """Prepare for `jobs` tasks at a time.
+        """Prepare for `jobs` calls at a time.
 
-        `interrupt` forwards Ctrl-C to the workers. With `captures`, output is captured in all cases.
+        `interrupt` forwards presses to the workers. With `captures`, output is captured in all cases.
         """
         self._jobs = jobs
         self._interrupt = interrupt
         self._captures = captures or jobs > 1 or not (_is_file(sys.stdout) and _is_file(sys.stderr))
-        self._waiting: deque[tuple[RunFuture[Any], Callable[[], Any]]] = deque()
+        self._waiting: deque[tuple[ForkFuture[Any], Callable[[], Any]]] = deque()
         self._workers: dict[int, _Worker] = {}
         self._files = _open_files()
         interrupt.workers = self._workers.keys()
 
-    def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> RunFuture[T]:
-        """Submit a call of `fn` with these arguments."""
-        future: RunFuture[T] = RunFuture(self.advance)
-        self._waiting.append((future, lambda: fn(*args, **kwargs)))
+    def submit(self, fn: Callable[P, T], /, *args: P.args, **kwargs: P.kwargs) -> ForkFuture[T]:
+        """Submit a call of `fn` with these arguments. It starts at once if there is room."""
+        future: ForkFuture[T] = ForkFuture(self.advance)
+        self._waiting.append((future, partial(fn, *args, **kwargs)))
+        self._start_waiting()
         return future
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
@@ -117,21 +113,21 @@ class ForkExecutor(Executor):
             _finish(worker, -signal.SIGKILL)
 
     def advance(self) -> None:
-        """Start tasks while there is room, and wait for the end of a worker."""
-        if self._interrupt.should_stop():
-            for future, _ in self._waiting:
-                future.cancel()
-        while self._waiting and len(self._workers) < self._jobs:
-            future, call = self._waiting.popleft()
-            if future.set_running_or_notify_cancel():
-                self._start(future, call)
+        """Wait for the end of a worker, and start calls that wait for room."""
+        self._start_waiting()
         if self._workers:
             pid, status = os.wait()
             worker = self._workers.pop(pid, None)  # the user's modules may have started processes, too
             if worker is not None:
                 _finish(worker, os.waitstatus_to_exitcode(status))
 
-    def _start(self, future: RunFuture[Any], call: Callable[[], Any]) -> None:
+    def _start_waiting(self) -> None:
+        while self._waiting and len(self._workers) < self._jobs:
+            future, call = self._waiting.popleft()
+            if future.set_running_or_notify_cancel():
+                self._start(future, call)
+
+    def _start(self, future: ForkFuture[Any], call: Callable[[], Any]) -> None:
         if not hasattr(os, "fork"):
             try:
                 future.set_result(call())
@@ -143,12 +139,11 @@ class ForkExecutor(Executor):
         gc.freeze()  # or a collection in a worker would copy the pages of all objects
         with contextlib.ExitStack() as files:
             try:
-                reading, writing = os.pipe()
-                theirs = files.enter_context(open(reading, "rb"))
-                ours = files.enter_context(open(writing, "wb"))
-                printed = tuple(
-                    files.enter_context(TemporaryFile()) for _ in range(2 if self._captures else 0)
+                theirs, ours = (
+                    files.enter_context(open(descriptor, mode))
+                    for descriptor, mode in zip(os.pipe(), ("rb", "wb"), strict=True)
                 )
+                printed = [files.enter_context(TemporaryFile()) for _ in range(2 * self._captures)]
                 with blocked(*WATCHED):  # until the worker can handle them
                     parent, pid = os.getpid(), os.fork()
                     if pid == 0:
@@ -161,7 +156,7 @@ class ForkExecutor(Executor):
                 files.pop_all()  # `_finish` closes them
 
     def _work(self, worker: _Worker, call: Callable[[], Any], parent: int) -> NoReturn:
-        """Run as the worker: call the task, write its result or exception to a file, and exit."""
+        """Run as the worker: execute the call, write its result or exception to a file, and exit."""
         code = 1
         try:
             if HAS_GUARDIANS:
@@ -194,22 +189,22 @@ def _not_started(error: OSError) -> WorkerError:
 
 def _finish(worker: _Worker, exit_code: int) -> None:
     """Pass on the result of a worker that has ended."""
-    worker.future.printed = tuple(_content(file) for file in worker.printed)
+    worker.future.printed = tuple(map(_content, worker.printed))
     with worker.returned as pipe:
         os.set_blocking(pipe.fileno(), False)  # a child of the worker may hold the other end
         returned = pipe.read() if exit_code == 0 else None
     if returned:
         value = pickle.loads(returned)
-        if isinstance(value, WorkerError):
-            worker.future.set_exception(value)
-        else:
-            worker.future.set_result(value)
     elif exit_code < 0:
         number = -exit_code
         name = signal.Signals(number).name if number in set(signal.Signals) else f"signal {number}"
-        worker.future.set_exception(WorkerError(f"the process was killed by {name}", exit_code))
+        value = WorkerError(f"the process was killed by {name}", exit_code)
     else:
-        worker.future.set_exception(WorkerError(f"the process exited with status {exit_code}", exit_code))
+        value = WorkerError(f"the process exited with status {exit_code}", exit_code)
+    if isinstance(value, WorkerError):
+        worker.future.set_exception(value)
+    else:
+        worker.future.set_result(value)
 
 
 def _content(file: IO[bytes]) -> bytes:

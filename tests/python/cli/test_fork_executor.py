@@ -2,15 +2,14 @@
 
 import io
 import os
-import signal
 import sys
 import time
 from concurrent.futures import CancelledError
 
 import pytest
 
+from gradysim.cli.fork_executor import ForkExecutor, WorkerError
 from gradysim.cli.interrupt import StopOnInterrupt
-from gradysim.cli.runner import ForkExecutor, WorkerError
 
 
 @pytest.fixture(params=[1, 3])
@@ -72,15 +71,6 @@ def test_a_task_may_be_canceled_before_it_starts(executor):
     assert [future.result() for future in futures[:-1]] == [0] * 4
     with pytest.raises(CancelledError):
         futures[-1].result()
-
-
-def test_after_ctrl_c_no_task_starts():
-    with StopOnInterrupt() as interrupt, ForkExecutor(1, interrupt) as executor:
-        futures = [executor.submit(int) for _ in range(2)]
-        signal.raise_signal(signal.SIGINT)
-        for future in futures:
-            with pytest.raises(CancelledError):
-                future.result()
 
 
 def test_what_a_task_leaves_in_open_files_is_written(executor, tmp_path):
