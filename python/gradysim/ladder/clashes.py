@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from gradysim.ladder.callbacks import without_numbers
 from gradysim.replay.reader import Replay
-from gradysim.replay.tables import BROADCAST, EVENT_KINDS, FRAME_KINDS, OUTCOMES
+from gradysim.replay.tables import BROADCAST, DATA_KINDS, EVENT_KINDS, OUTCOMES
 from gradysim.results.tracked_variables import group_of
 
 Verdict = Literal["saturated", "hidden", "synchronized", "drifting", "hidden and drifting", "random"]
@@ -31,7 +31,6 @@ _IN_AIR = OUTCOMES.index("in_air")
 _TOO_WEAK = OUTCOMES.index("below_sensitivity")
 _TIMER = "timer "
 _ANSWER = "packet"
-_DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
 _NS_PER_S = 1e9
 _NS = 1.5e-9
 """Rounding error of the distance between two times, in s."""
@@ -305,7 +304,7 @@ class _Run:
         """{node: ends in ns of the messages that it received}."""
         found: defaultdict[int, list[int]] = defaultdict(list)
         for frame, receiver, outcome in self.receptions:
-            is_message = self._frames["kind"][frame] in _DATA and self._is_for(frame, receiver)
+            is_message = self._frames["kind"][frame] in DATA_KINDS and self._is_for(frame, receiver)
             if is_message and OUTCOMES[outcome] == "delivered":
                 found[receiver].append(self._ends[frame])
         return {node: sorted(ends) for node, ends in found.items()}

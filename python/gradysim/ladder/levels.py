@@ -11,9 +11,11 @@ a circle knows no noise. Such a level names what it needs, and is left out with 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
+from typing import Any
 
 from gradysim.scenario.ini import Section
 from gradysim.scenario.keys import MASSLESS, QUADCOPTER
+from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 
@@ -21,52 +23,44 @@ UNIT_DISK = "UnitDiskRadioMedium"
 _UNLIMITED = "1e9m"
 
 
-def _always(scenario: Scenario) -> bool:
-    return True
-
-
-def _timing(scenario: Scenario) -> str:
-    """Return what takes time, `radioMedium.timing`."""
-    chosen = scenario.medium.get("timing")
-    if chosen is not None:
-        return str(chosen.value)
-    return "mac" if _has_radios(scenario) else "instant"
+def _value(settings: Mapping[str, Setting], field: str, default: Any = None) -> Any:
+    """Return the value of a field, or the default if the scenario does not set it."""
+    chosen = settings.get(field)
+    return default if chosen is None else chosen.value
 
 
 def _timing_is(*timings: str) -> Callable[[Scenario], bool]:
-    return lambda scenario: _timing(scenario) in timings
+    """Return whether one of these takes time, by `radioMedium.timing`."""
+    return lambda scenario: _value(scenario.medium, "timing", _default_timing(scenario)) in timings
+
+
+def _default_timing(scenario: Scenario) -> str:
+    return "mac" if _has_radios(scenario) else "instant"
 
 
 def _has_radios(scenario: Scenario) -> bool:
-    chosen = scenario.medium.get("typename")
-    return chosen is None or chosen.value != UNIT_DISK
+    return bool(_value(scenario.medium, "typename") != UNIT_DISK)
 
 
 def _has_capture(scenario: Scenario) -> bool:
-    return _has_radios(scenario) and _timing(scenario) == "mac"
+    return _has_radios(scenario) and _timing_is("mac")(scenario)
 
 
 def _path_loss_is(*names: str) -> Callable[[Scenario], bool]:
-    def applies(scenario: Scenario) -> bool:
-        chosen = scenario.medium.get("path_loss")
-        return chosen is not None and chosen.value in names
-
-    return applies
+    return lambda scenario: _value(scenario.medium, "path_loss") in names
 
 
 def _has_shadowing(scenario: Scenario) -> bool:
-    sigma = scenario.medium.get("shadowing_standard_deviation_db")
-    return _path_loss_is("LogNormalShadowing")(scenario) or (sigma is not None and float(sigma.value) > 0)
+    sigma_db = float(_value(scenario.medium, "shadowing_standard_deviation_db", 0))
+    return _path_loss_is("LogNormalShadowing")(scenario) or sigma_db > 0
 
 
 def _has_other_systems(scenario: Scenario) -> bool:
-    power = scenario.medium.get("other_systems_w")
-    return _has_radios(scenario) and power is not None and float(power.value) > 0
+    return _has_radios(scenario) and float(_value(scenario.medium, "other_systems_w", 0)) > 0
 
 
 def _has_obstacles(scenario: Scenario) -> bool:
-    chosen = scenario.medium.get("obstacle_loss")
-    return bool(scenario.obstacles) and chosen is not None and bool(chosen.value)
+    return bool(scenario.obstacles and _value(scenario.medium, "obstacle_loss"))
 
 
 def _has_antennas(scenario: Scenario) -> bool:
@@ -87,15 +81,12 @@ def _has_wind(scenario: Scenario) -> bool:
 
 
 def _has_position_errors(scenario: Scenario) -> bool:
-    errors = (node.mobility.get("position_error_m") for node in scenario.nodes)
-    return any(error and error.value for error in errors)
+    return any(_value(node.mobility, "position_error_m") for node in scenario.nodes)
 
 
 def _has_command_delay(node: NodeSpec) -> bool:
-    delay = node.mobility.get("command_delay_s")
-    typename = node.mobility.get("typename")
-    obeys = typename is None or typename.value in (MASSLESS, QUADCOPTER)
-    return delay is not None and bool(delay.value) and obeys and node.autopilot is None
+    obeys = _value(node.mobility, "typename", MASSLESS) in (MASSLESS, QUADCOPTER)
+    return bool(_value(node.mobility, "command_delay_s")) and obeys and not _has_autopilot(node)
 
 
 def _takes_time(node: NodeSpec) -> bool:
@@ -124,7 +115,7 @@ class Level:
     name: str
     adds: str
     off: Mapping[str, str] = field(default_factory=dict)
-    applies: Callable[[Scenario], bool] = _always
+    applies: Callable[[Scenario], bool] = lambda _: True
     needs: tuple[str, ...] = ()
     is_added: bool = False
     has_node: Callable[[NodeSpec], bool] | None = None

@@ -1,5 +1,6 @@
 """What one run of a campaign showed."""
 
+from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
@@ -42,22 +43,19 @@ class Observation:
 
 def losses_of(outcomes: Outcomes) -> tuple[dict[str, int], int]:
     """Return the lost receptions by outcome, and the number of those within range that have ended."""
-    losses: dict[str, int] = {}
+    losses: Counter[str] = Counter()
     receptions = 0
     for kind, counts in outcomes["frames"].items():
         if kind.endswith("overheard"):
             continue
         receptions += sum(counts.values()) - counts.get("below_sensitivity", 0) - counts.get("in_air", 0)
-        for outcome, count in counts.items():
-            if outcome not in _NOT_LOST and count:
-                losses[outcome] = losses.get(outcome, 0) + count
+        losses.update({outcome: n for outcome, n in counts.items() if n and outcome not in _NOT_LOST})
     return losses, receptions
 
 
 def messages_of(outcomes: Outcomes) -> dict[str, int]:
     """Return the number of messages by outcome, of all kinds."""
-    messages: dict[str, int] = {}
+    messages: Counter[str] = Counter()
     for counts in outcomes["messages"].values():
-        for outcome, count in counts.items():
-            messages[outcome] = messages.get(outcome, 0) + count
+        messages.update(counts)
     return messages

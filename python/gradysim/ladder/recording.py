@@ -13,12 +13,11 @@ from gradysim.integrated.network import node_config
 from gradysim.ladder.callbacks import Callback, CallbackLog, Cause
 from gradysim.ladder.campaign import Campaign, Effects
 from gradysim.replay.reader import Replay, read_replay
-from gradysim.replay.tables import BROADCAST, FRAME_KINDS, OUTCOMES
+from gradysim.replay.tables import BROADCAST, DATA_KINDS, OUTCOMES
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig
 
-_DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
 _DELIVERED = OUTCOMES.index("delivered")
 _LONGEST_WAY_NS = 100_000
 """Time that a frame takes over 30 km."""
@@ -174,7 +173,7 @@ class Recording:
         columns = ("node", "destination", "kind", "retry")
         rows = zip(*(self.frames[column] for column in columns), strict=True)
         for row, (node, destination, kind, retry) in enumerate(rows):
-            if kind not in _DATA:
+            if kind not in DATA_KINDS:
                 continue
             if retry and (node, destination) in last:
                 last[node, destination].append(row)
@@ -235,7 +234,7 @@ class Recording:
         ends: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
         for frame, receiver, outcome in zip(*self.replay.table("receptions").values(), strict=True):
             is_for = self.frames["destination"][frame] in (BROADCAST, receiver)
-            if outcome == _DELIVERED and is_for and self.frames["kind"][frame] in _DATA:
+            if outcome == _DELIVERED and is_for and self.frames["kind"][frame] in DATA_KINDS:
                 end_ns = self.frames["time_ns"][frame] + self.frames["duration_ns"][frame]
                 ends[receiver].append((end_ns, frame))
         for each in ends.values():

@@ -15,10 +15,9 @@ from gradysim.ladder.difference import Difference, first_difference
 from gradysim.ladder.observation import LOST_MESSAGES
 from gradysim.ladder.recording import Recording, read_recording, record_to_files
 from gradysim.replay.reader import Replay
-from gradysim.replay.tables import BROADCAST, FRAME_KINDS, NOT_LOST
+from gradysim.replay.tables import BROADCAST, DATA_KINDS, NOT_LOST
 
 _TOO_WEAK = "below_sensitivity"
-_DATA = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
 
 
 @dataclass(frozen=True)
@@ -104,7 +103,7 @@ def _ratios(replay: Replay) -> Mapping[str, float]:
     complete = set()
     for frame, kind in enumerate(frames["kind"]):
         noticed, unnoticed = frames["receptions"][frame], frames["unnoticed"][frame]
-        if kind in _DATA and ended[frame] == noticed:
+        if kind in DATA_KINDS and ended[frame] == noticed:
             complete.add(frame)
             addressees += noticed + unnoticed if frames["destination"][frame] == BROADCAST else 1
     counts = Counter(

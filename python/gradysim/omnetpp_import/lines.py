@@ -159,11 +159,12 @@ def _without_counterpart(entry: Entry, parts: Sequence[str]) -> Outcome:
 
 
 class _Reasons:
-    """Reasons by the patterns of names that they are for."""
+    """Reasons, each with the patterns of names that it is for."""
 
     def __init__(self, reasons: Mapping[str, str]) -> None:
-        self._reasons = tuple(reasons.values())
-        self._pattern = re.compile("|".join(f"({fnmatch.translate(pattern)})" for pattern in reasons))
+        self._reasons = tuple(reasons)
+        patterns = ("|".join(map(fnmatch.translate, names.split())) for names in reasons.values())
+        self._pattern = re.compile("|".join(f"({pattern})" for pattern in patterns))
 
     def of_first(self, names: Iterable[str]) -> str:
         """Return the reason for the first name that one of the patterns matches; "" if there is none."""

@@ -125,91 +125,51 @@ VALUES: Final[Mapping[str, Mapping[str, str]]] = {
 
 # ---- lines that are left out, and what is not modelled -----------------------------------------------------
 
-_APPS = "the protocol of a node sends its messages"
-_ADDRESSES = "nodes are addressed by their ids"
-_SHOWN = "only OMNeT++ shows it"
 OTHER_APP = "a node runs one protocol, in place of app[0]"
 DRAWN = "a node draws it once, and not for each message"
 
 NO_MEANING: Final[Mapping[str, str]] = {
-    "app": _APPS,
-    "numApps": _APPS,
-    "packetName": _APPS,
-    "*Port": _APPS,
-    "ipv4": _ADDRESSES,
-    "ipv6": _ADDRESSES,
-    "arp": _ADDRESSES,
-    "configurator": _ADDRESSES,
-    "networkConfiguratorModule": _ADDRESSES,
-    "netmaskRoutes": _ADDRESSES,
-    "visualizer": _SHOWN,
-    "*Visualizer*": _SHOWN,
-    "osgModel": _SHOWN,
-    "display*": _SHOWN,
-    "initFromDisplayString": "positions are in the file",
-    "updateInterval": "the medium reads positions when it needs them",
-    "coordinateSystemModule": "geographic positions became x, y and z",
-    "physicalEnvironmentModule": "obstacles are below `environment`",
-    "space*": "the scene has no borders",
-    "waypointProximity": "it had no effect",
-    "homeX": "it had no effect",
-    "homeY": "it had no effect",
-    "homeZ": "it had no effect",
-    "startTime": "the protocol decides when it flies",
-    "planeSimulatorPath": "the autopilot is ArduCopter",
-    "roverSimulatorPath": "the autopilot is ArduCopter",
-    "waitUntilReady": "a run begins when all autopilots are ready",
-    "sameTransmissionStartTimeCheck": "frames that start together collide",
-    "mediumLimitCache": "the medium finds its own limits",
+    "the protocol of a node sends its messages": "app numApps packetName *Port",
+    "nodes are addressed by their ids": "ipv4 ipv6 arp configurator networkConfiguratorModule netmaskRoutes",
+    "only OMNeT++ shows it": "visualizer *Visualizer* osgModel display*",
+    "positions are in the file": "initFromDisplayString",
+    "the medium reads positions when it needs them": "updateInterval",
+    "geographic positions became x, y and z": "coordinateSystemModule",
+    "obstacles are below `environment`": "physicalEnvironmentModule",
+    "the scene has no borders": "space*",
+    "it had no effect": "waypointProximity homeX homeY homeZ",
+    "the protocol decides when it flies": "startTime",
+    "the autopilot is ArduCopter": "planeSimulatorPath roverSimulatorPath",
+    "a run begins when all autopilots are ready": "waitUntilReady",
+    "frames that start together collide": "sameTransmissionStartTimeCheck",
+    "the medium finds its own limits": "mediumLimitCache",
 }
-"""{name of a module or of a parameter, with `*` for any letters: why it has no meaning here}."""
+"""{why it has no meaning here: names of modules and of parameters, with `*` for any letters}."""
 
-_ENERGY = "there are no energy models"
-_FAILURES = "there are no failure models"
-_QOS = "there is no QoS, aggregation or block ACK"
 _MANAGEMENT = "all nodes are ad hoc"
-_BEACONS = "there are no beacons, slots or schedules"
-_FRAGMENTS = "there is no fragmentation"
-_SCALAR = "signals have one power, as with scalar"
 _ROUTES = "protocols forward messages, nodes do not"
 
 NOT_MODELLED: Final[Mapping[str, str]] = {
-    "energyStorage": _ENERGY,
-    "energyGenerator": _ENERGY,
-    "energyManagement": _ENERGY,
-    "energyConsumer": _ENERGY,
-    "hasStatus": _FAILURES,
-    "failures": _FAILURES,
-    "numFailures": _FAILURES,
-    "mac": "the MAC is DCF of 802.11, or CSMA/CA of 802.15.4",
-    "hcf": _QOS,
-    "qosStation": _QOS,
-    "classifier": _QOS,
-    "queue": "a node has one queue, `mac.dcf.channelAccess.pendingQueue.packetCapacity` long",
-    "mgmt": _MANAGEMENT,
-    "agent": _MANAGEMENT,
-    "mib": _MANAGEMENT,
-    "numSlots": _BEACONS,
-    "slotDuration": _BEACONS,
-    "reservedMobileSlots": _BEACONS,
-    "fragmentationPolicy": _FRAGMENTS,
-    "fragmentationThreshold": _FRAGMENTS,
-    "frequencyGains": _SCALAR,
-    "signalAnalogRepresentation": _SCALAR,
-    "analogModel": _SCALAR,
-    "snir*Mode": "the lowest SNIR counts",
-    "powerSpectralDensity": "noise has a power, `radioMedium.backgroundNoise.power`",
-    "noiseSource": "there are no noise sources",
-    "radioMediumModule": "there is one medium",
-    "responseAckFrameBitrate": "ACKs have the rate that the standard says",
-    "routing*": _ROUTES,
-    "*Routing": _ROUTES,
-    "forwarding": _ROUTES,
-    "ground": "the ground is flat, at z = 0",
-    "sceneHeading": "x is North",
-    "vehicleType": "the autopilot is ArduCopter",
+    "there are no energy models": "energyStorage energyGenerator energyManagement energyConsumer",
+    "there are no failure models": "hasStatus failures numFailures",
+    "the MAC is DCF of 802.11, or CSMA/CA of 802.15.4": "mac",
+    "there is no QoS, aggregation or block ACK": "hcf qosStation classifier",
+    "a node has one queue, `mac.dcf.channelAccess.pendingQueue.packetCapacity` long": "queue",
+    _MANAGEMENT: "mgmt agent mib",
+    "there are no beacons, slots or schedules": "numSlots slotDuration reservedMobileSlots",
+    "there is no fragmentation": "fragmentationPolicy fragmentationThreshold",
+    "signals have one power, as with scalar": "frequencyGains signalAnalogRepresentation analogModel",
+    "the lowest SNIR counts": "snir*Mode",
+    "noise has a power, `radioMedium.backgroundNoise.power`": "powerSpectralDensity",
+    "there are no noise sources": "noiseSource",
+    "there is one medium": "radioMediumModule",
+    "ACKs have the rate that the standard says": "responseAckFrameBitrate",
+    _ROUTES: "routing* *Routing forwarding",
+    "the ground is flat, at z = 0": "ground",
+    "x is North": "sceneHeading",
+    "the autopilot is ArduCopter": "vehicleType",
 }
-"""{name of a module or of a parameter, with `*` for any letters: what there is instead}.
+"""{what there is instead: names of modules and of parameters, with `*` for any letters}.
 
 Some of them change nothing with the values in `AS_HERE`. Names that are not in these tables are not modelled.
 """

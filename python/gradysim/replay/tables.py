@@ -54,6 +54,9 @@ MOST_TEXT_BYTES: Final = 500_000
 
 FRAME_KINDS: Final = ("broadcast", "unicast", "ack", "rts", "cts")
 
+DATA_KINDS: Final = {FRAME_KINDS.index("broadcast"), FRAME_KINDS.index("unicast")}
+"""Kinds of frames that have a message."""
+
 OUTCOMES: Final = (
     "delivered",
     "below_sensitivity",
