@@ -50,7 +50,7 @@ def losses_of(outcomes: Outcomes) -> tuple[dict[str, int], int]:
             continue
         receptions += sum(counts.values()) - counts.get("below_sensitivity", 0) - counts.get("in_air", 0)
         losses.update({outcome: n for outcome, n in counts.items() if n and outcome not in _NOT_LOST})
-    return losses, receptions
+    return dict(losses), receptions
 
 
 def messages_of(outcomes: Outcomes) -> dict[str, int]:
@@ -58,4 +58,4 @@ def messages_of(outcomes: Outcomes) -> dict[str, int]:
     messages: Counter[str] = Counter()
     for counts in outcomes["messages"].values():
         messages.update(counts)
-    return messages
+    return dict(messages)
