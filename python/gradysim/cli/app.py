@@ -8,31 +8,13 @@ Each command has its own file in `gradysim.cli`.
 
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from io import TextIOWrapper
 from typing import TYPE_CHECKING
 
 from cyclopts import App, CycloptsError, CycloptsPanel, Group, UnknownOptionError, UnusedCliTokensError
 
-from gradysim.cli.bisect import find_breaking_level
-from gradysim.cli.calibrate import calibrate_power
-from gradysim.cli.check import check_file
-from gradysim.cli.compare import compare
-from gradysim.cli.desync import desynchronize_timers
-from gradysim.cli.docs import show_docs
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
-from gradysim.cli.import_file import import_file
-from gradysim.cli.keys import list_keys
-from gradysim.cli.ladder import climb_ladder
-from gradysim.cli.means import print_means
-from gradysim.cli.new import make_project
-from gradysim.cli.pack import pack_results
-from gradysim.cli.plot import draw_figure
-from gradysim.cli.run import run
-from gradysim.cli.runs import list_runs
-from gradysim.cli.status import print_status
-from gradysim.cli.verify import verify_files
-from gradysim.cli.view import view
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -83,42 +65,84 @@ app = App(
 )
 app.register_install_completion_command(help="Install completion for this shell, and end.")
 
-COMMANDS: dict[str, dict[str, tuple[Callable[..., int], str]]] = {
+COMMANDS = {
     "Write": {
-        "new": (make_project, "gradysim new swarm"),
-        "check": (check_file, "gradysim check swarm.ini -c Study"),
-        "docs": (show_docs, "gradysim docs fly-a-mission"),
-        "keys": (list_keys, "gradysim keys communicationRange"),
-        "calibrate": (calibrate_power, "gradysim calibrate swarm.ini --range 50m"),
-        "import": (import_file, "gradysim import omnetpp.ini -o imported"),
+        "new": ("new:make_project", "gradysim new swarm"),
+        "check": ("check:check_file", "gradysim check swarm.ini -c Study"),
+        "docs": ("docs:show_docs", "gradysim docs fly-a-mission"),
+        "keys": ("keys:list_keys", "gradysim keys communicationRange"),
+        "calibrate": ("calibrate:calibrate_power", "gradysim calibrate swarm.ini --range 50m"),
+        "import": ("import_file:import_file", "gradysim import omnetpp.ini -o imported"),
     },
     "Run": {
-        "run": (run, "gradysim run swarm.ini -c Study --jobs 2 --result-dir results"),
-        "runs": (list_runs, "gradysim runs swarm.ini -c Study"),
-        "status": (print_status, "gradysim status swarm.ini -c Study --result-dir results"),
+        "run": ("run:run", "gradysim run swarm.ini -c Study --jobs 2 --result-dir results"),
+        "runs": ("runs:list_runs", "gradysim runs swarm.ini -c Study"),
+        "status": ("status:print_status", "gradysim status swarm.ini -c Study --result-dir results"),
     },
     "Look": {
-        "view": (view, "gradysim view swarm.ini -c Study --run 3"),
+        "view": ("view:view", "gradysim view swarm.ini -c Study --run 3"),
     },
     "Evaluate": {
-        "means": (print_means, "gradysim means results --metric 'station heard'"),
-        "compare": (compare, "gradysim compare results --by mode"),
-        "plot": (draw_figure, "gradysim plot results --x jitter --metric 'station heard' -o heard.pdf"),
-        "pack": (pack_results, "gradysim pack results --remove"),
-        "verify": (verify_files, "gradysim verify results"),
+        "means": ("means:print_means", "gradysim means results --metric 'station heard'"),
+        "compare": ("compare:compare", "gradysim compare results --by mode"),
+        "plot": (
+            "plot:draw_figure",
+            "gradysim plot results --x jitter --metric 'station heard' -o heard.pdf",
+        ),
+        "pack": ("pack:pack_results", "gradysim pack results --remove"),
+        "verify": ("verify:verify_files", "gradysim verify results"),
     },
     "Find weaknesses": {
-        "ladder": (climb_ladder, "gradysim ladder swarm.ini --metric 'station heard' -o ladder.png"),
-        "bisect": (find_breaking_level, "gradysim bisect swarm.ini --assert 'station heard >= 100'"),
-        "desync": (desynchronize_timers, "gradysim desync swarm.ini"),
+        "ladder": ("ladder:climb_ladder", "gradysim ladder swarm.ini --metric 'station heard' -o ladder.png"),
+        "bisect": ("bisect:find_breaking_level", "gradysim bisect swarm.ini --assert 'station heard >= 100'"),
+        "desync": ("desync:desynchronize_timers", "gradysim desync swarm.ini"),
     },
 }
-"""{group: {command: its function and an example}}, in the order of the help."""
+"""{group: {command: its function and an example}}, in the order of the help.
+
+The file of a function in `gradysim.cli` is imported only when the command is called.
+"""
+
+HELP = {
+    "new": "Make a directory with a protocol, scenarios and a test, or a copy of an example.",
+    "check": "Report the errors and warnings that show before the first run, sorted by line.",
+    "docs": "Show a page of the documentation, or list the pages that have a word in their title or text.",
+    "keys": "List the keys of .ini files: unit, default, meaning.",
+    "calibrate": "Find the transmission power for a wanted range, or the path loss for measured powers or"
+    " deliveries.",
+    "import": "Translate an .ini file of OMNeT++, and list what was done with each line.",
+    "run": "Run the runs of a configuration and report their results.",
+    "runs": "List the runs of a configuration.",
+    "status": "List which runs of a configuration are done. The exit code is 0 only if all of them are.",
+    "view": "Show a run in the browser: while it goes on (FILE.ini), or its replay (FILE.html).",
+    "means": "Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence"
+    " intervals.",
+    "compare": "Compare two studies, or two modes or configurations of one, by pairs of runs with the same"
+    " seed.",
+    "plot": "Draw a figure of the runs in a directory, and write its numbers and their origin next to it.",
+    "pack": "Put the JSON files of a directory into one SQLite file, which other commands read in their"
+    " place.",
+    "verify": "Verify checksums and hashes of all files of a study, and print a line for each bad file.",
+    "ladder": "Run a configuration with more and more effects of real radios, and print what each level"
+    " changes.\n\nA run that fails does not count in the means. The exit code is 1 then.",
+    "bisect": "Find the lowest level of realism at which a protocol fails, and say why."
+    "\n\nExit code 0: the assertion holds in all runs, and each level was run; 1: it fails in some. Two"
+    " replays are written to --result-dir (default: results).",
+    "desync": "Find timers of nodes that send into each other, and the random delay (jitter) that they need."
+    "\n\nExit code 1: all runs without jitter fail.",
+}
+"""{command: its help}."""
 
 for _group, _commands in COMMANDS.items():
     _shown = Group.create_ordered(_group)
     for _name, (_function, _example) in _commands.items():
-        app.command(_function, name=_name, group=_shown, help_epilogue=f"Example: {_example}")
+        app.command(
+            f"gradysim.cli.{_function}",
+            name=_name,
+            group=_shown,
+            help=HELP[_name],
+            help_epilogue=f"Example: {_example}",
+        )
 _options = Group.create_ordered("Options")
 for _flag in ("--help", "--version", "--install-completion"):
     app[_flag].group = _options

@@ -1,20 +1,23 @@
 """`gradysim bisect`: the lowest level of realism at which a protocol fails, and why."""
 
 from collections.abc import Mapping
+from concurrent.futures import Executor
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from gradysim.cli.campaign import campaign_of, print_json
+from gradysim.cli.console import console
 from gradysim.cli.errors import FAILED, OK, say_mistake
 from gradysim.cli.options import DEFAULT_DIR, CampaignOptions, FileArgument, Integer
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from gradysim.ladder.bisect import Bisection, Verdict
-    from gradysim.ladder.campaign import Campaign
-    from gradysim.ladder.why import Explanation
+from gradysim.ladder.assertion import Assertion
+from gradysim.ladder.bisect import Bisection, Verdict
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.explanation_words import explanation_sentences
+from gradysim.ladder.why import Explanation, record_and_explain
+from gradysim.ladder.words import verdict_sentences
+from gradysim.scenario.errors import ConfigError
 
 DEFAULTS = CampaignOptions()
 
@@ -40,19 +43,7 @@ def find_breaking_level(
     max_runs: Annotated[Integer, Parameter(help="Budget of runs; all of it is used if none fails.")] = 400,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
-    """Find the lowest level of realism at which a protocol fails, and say why.
-
-    Exit code 0: the assertion holds in all runs, and each level was run; 1: it fails in some. Two replays are
-    written to --result-dir (default: results).
-    """
-    from gradysim.cli.campaign import campaign_of, print_json
-    from gradysim.cli.console import console
-    from gradysim.ladder.assertion import Assertion
-    from gradysim.ladder.bisect import Bisection
-    from gradysim.ladder.explanation_words import explanation_sentences
-    from gradysim.ladder.words import verdict_sentences
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim bisect`, and return the exit code."""
     try:
         if not 0.5 < confidence < 1:
             raise ConfigError(
@@ -83,11 +74,9 @@ def find_breaking_level(
 
 
 def _explained(
-    campaign: "Campaign", verdict: "Verdict", options: CampaignOptions, executor: "Executor"
-) -> "tuple[Explanation, list[str]] | None":
+    campaign: Campaign, verdict: Verdict, options: CampaignOptions, executor: Executor
+) -> tuple[Explanation, list[str]] | None:
     """Record a run that works at the one level and fails at the other, and compare the two."""
-    from gradysim.ladder.why import record_and_explain
-
     place, works, fails = verdict.place, verdict.works, verdict.fails
     if place is None or works is None or fails is None:
         return None
@@ -103,7 +92,7 @@ def _explained(
 
 
 def verdict_json(
-    bisection: "Bisection", verdict: "Verdict", explained: "tuple[Explanation, list[str]] | None"
+    bisection: Bisection, verdict: Verdict, explained: tuple[Explanation, list[str]] | None
 ) -> dict[str, Any]:
     """Return the verdict, the runs of each level and the explanation for other programs."""
     levels = bisection.campaign.levels
@@ -130,7 +119,7 @@ def verdict_json(
     return plain
 
 
-def _level_json(bisection: "Bisection", number: int) -> Mapping[str, object]:
+def _level_json(bisection: Bisection, number: int) -> Mapping[str, object]:
     tally = bisection.at_level(number)
     return {
         "level": bisection.campaign.levels[number].name,

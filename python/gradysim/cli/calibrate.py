@@ -2,7 +2,9 @@
 
 import math
 import sys
+from decimal import ROUND_CEILING, Context
 from pathlib import Path
+from textwrap import wrap
 from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
@@ -10,13 +12,17 @@ from cyclopts import Parameter
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import ConfigOption, FileArgument, SetOption, option_value
 from gradysim.cli.runs import check
+from gradysim.integrated.calibration import Calibration, calibrate, pair_of
+from gradysim.integrated.compiled_part import CompiledPartMissingError
+from gradysim.integrated.fitted_path_loss import fit_path_loss, read_measurements
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.parameter_types import quantity, whole_bytes
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.sweep import text_of_iterations
+from gradysim.scenario.units import db_from_ratio, dbm_from_w
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from gradysim.integrated.calibration import Calibration
-    from gradysim.scenario.scenario import Scenario
-
 
 BAR_WIDTH = 40
 
@@ -55,13 +61,7 @@ def calibrate_power(
     ] = None,
     settings: SetOption = (),
 ) -> int:
-    """Find the transmission power for a wanted range, or the path loss for measured powers or deliveries."""
-    from gradysim.integrated.calibration import calibrate
-    from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.parameter_types import quantity, whole_bytes
-    from gradysim.scenario.sweep import text_of_iterations
-
+    """Carry out `gradysim calibrate`, and return the exit code."""
     try:
         scenario = check(file, config, "0", settings)[0]
         if not 0 < ratio < 1:
@@ -100,11 +100,8 @@ def calibrate_power(
 
 
 def _text_of_fit(
-    scenario: "Scenario", file: Path, sender: str | None, receiver: str | None, message_bytes: int
+    scenario: Scenario, file: Path, sender: str | None, receiver: str | None, message_bytes: int
 ) -> str:
-    from gradysim.integrated.calibration import pair_of
-    from gradysim.integrated.fitted_path_loss import fit_path_loss, read_measurements
-
     pair = pair_of(scenario, sender, receiver)
     fitted = fit_path_loss(scenario, read_measurements(file), *pair, message_bytes)
     alpha, loss, deviation, half = fitted.alpha, fitted.loss_db, fitted.deviation_db, fitted.half_m
@@ -132,10 +129,8 @@ def _text_of_fit(
     return "\n".join(lines)
 
 
-def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> str:
+def text_of_calibration(calibration: Calibration, encoding: str = "utf-8") -> str:
     """Return the report, for an output of that encoding."""
-    from gradysim.scenario.units import db_from_ratio
-
     c = calibration
     above = (
         f"{db_from_ratio(c.snr_at_range):.2f} dB above the" if math.isfinite(c.snr_at_range) else "without"
@@ -164,7 +159,7 @@ def text_of_calibration(calibration: "Calibration", encoding: str = "utf-8") -> 
     return "\n".join(lines)
 
 
-def _what_bitrate(c: "Calibration") -> list[str]:
+def _what_bitrate(c: Calibration) -> list[str]:
     """Return a note if the line above is not what sets the power."""
     if not c.is_of_bitrate:
         return []
@@ -187,27 +182,23 @@ def _what_is_beyond_radios(power_w: float) -> list[str]:
     ]
 
 
-def _sender(c: "Calibration") -> str:
+def _sender(c: Calibration) -> str:
     """Return its name, with its interface unless it is the first one. Receivers have the same form."""
     return f"{c.sender}.wlan[{c.sender_interface}]" if c.sender_interface else c.sender
 
 
-def _receiver(c: "Calibration") -> str:
+def _receiver(c: Calibration) -> str:
     return "another one like it" if c.receiver == c.sender else c.receiver
 
 
 def _in_mw(power_w: float) -> str:
     """Return six digits, rounded up: with less than the sensitivity, nothing is received."""
-    from decimal import ROUND_CEILING, Context
-
     rounded_w = Context(prec=6, rounding=ROUND_CEILING).create_decimal(repr(power_w))
     return f"{float(rounded_w.scaleb(3)):.6g}"
 
 
 def _in_dbm(power_w: float) -> str:
     """Return three digits after the point, rounded up."""
-    from gradysim.scenario.units import dbm_from_w
-
     return f"{math.ceil(1000 * dbm_from_w(power_w)) / 1000:.3f}"
 
 
@@ -219,9 +210,6 @@ def _in_metres(distance_m: float) -> str:
 def _what_decides(level: str, level_w: float | None) -> list[str]:
     if level_w is None:
         return []
-    from textwrap import wrap
-
-    from gradysim.scenario.units import dbm_from_w
 
     decides = (
         f"The receiver's {level} of {dbm_from_w(level_w):g} dBm decides, not the noise:"
@@ -255,7 +243,7 @@ def check_picture(path: Path) -> None:
         raise ValueError(f"--picture {path}: it is a directory; expected a file")
 
 
-def draw(calibration: "Calibration", path: Path) -> None:
+def draw(calibration: Calibration, path: Path) -> None:
     """Draw reception over distance into a file. Its suffix chooses the format.
 
     Raises:

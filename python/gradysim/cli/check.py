@@ -2,20 +2,20 @@
 
 import contextlib
 import sys
-from typing import TYPE_CHECKING, Annotated
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from gradysim.cli.errors import MISTAKE, OK, say_mistake
 from gradysim.cli.options import FileArgument, Mode, SetOption
 from gradysim.cli.runs import check, findings_of
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-    from pathlib import Path
-
-    from gradysim.scenario.errors import ConfigError, ErrorCollector
-    from gradysim.scenario.lint import Finding
+from gradysim.integrated.compiled_part import CompiledPartMissingError
+from gradysim.scenario.errors import ConfigError, ConfigErrors, ErrorCollector
+from gradysim.scenario.ini import read_ini
+from gradysim.scenario.lint import Finding
+from gradysim.scenario.sections import config_names
 
 ConfigsOption = Annotated[
     str | None,
@@ -36,12 +36,7 @@ def check_file(
     mode: Annotated[Mode, Parameter(help="The mode to check for, as of `gradysim run`.")] = "integrated",
     settings: SetOption = (),
 ) -> int:
-    """Report the errors and warnings that show before the first run, sorted by line."""
-    from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors import ConfigErrors, ErrorCollector
-    from gradysim.scenario.ini import read_ini
-    from gradysim.scenario.sections import config_names
-
+    """Carry out `gradysim check`, and return the exit code."""
     errors = ErrorCollector()
     findings: list[Finding] = []
     configs = [config] if config is not None else []
@@ -67,8 +62,8 @@ def _counted(count: int, noun: str) -> str:
 
 
 def check_config(
-    file: "Path", config: str, mode: Mode, settings: "Sequence[str]", errors: "ErrorCollector"
-) -> "list[Finding]":
+    file: Path, config: str, mode: Mode, settings: Sequence[str], errors: ErrorCollector
+) -> list[Finding]:
     """Check one configuration. Returns the lint findings; `errors` takes the errors."""
     if mode == "prototype":
         from gradysim.prototype.simulation import check_scenario

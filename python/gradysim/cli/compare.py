@@ -4,20 +4,21 @@ import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
+from rich.table import Table
+from rich.text import Text
 
+from gradysim.cli.console import console, interval_text, number_column, report_table, text_column, write_csv
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import CompareOptions, ResultsArgument
 from gradysim.cli.study import check_quantities, conditions, drawn_text, read_study, warn_of_mixed_runs
-
-if TYPE_CHECKING:
-    from rich.table import Table
-
-    from gradysim.results.compare import Change, Pairs
-    from gradysim.results.confidence_interval import Estimate
-    from gradysim.results.run_table import Runs
+from gradysim.results.compare import Change, Pairs, pair_runs, varying_values
+from gradysim.results.confidence_interval import Estimate
+from gradysim.results.run_table import Runs
+from gradysim.scenario.errors import ConfigError, unknown_name
+from gradysim.scenario.ranges import are_alike
 
 _ROUNDING = 1e-12
 """Relative error of a mean of floats, at most."""
@@ -39,7 +40,7 @@ class Side:
 
     name: str
     directory: Path
-    runs: "Runs"
+    runs: Runs
 
 
 def compare(
@@ -49,11 +50,7 @@ def compare(
     *,
     options: CompareOptions = DEFAULTS,
 ) -> int:
-    """Compare two studies, or two modes or configurations of one, by pairs of runs with the same seed."""
-    from gradysim.cli.console import console, write_csv
-    from gradysim.results.compare import pair_runs
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim compare`, and return the exit code."""
     try:
         before, after = _sides(first, second, options)
         pairs = pair_runs(before.runs, after.runs)
@@ -96,10 +93,8 @@ def compare(
     return OK
 
 
-def warn_of_ranges(pairs: "Pairs") -> None:
+def warn_of_ranges(pairs: Pairs) -> None:
     """Warn if runs of the two modes have different ranges: then that explains what differs."""
-    from gradysim.scenario.ranges import are_alike
-
     for first, second in pairs.runs:
         one_m, other_m = first.number("range_m"), second.number("range_m")
         if first.mode == second.mode or one_m is None or other_m is None or are_alike(one_m, other_m):
@@ -115,8 +110,6 @@ def warn_of_ranges(pairs: "Pairs") -> None:
 
 def _sides(first: Path, second: Path | None, options: CompareOptions) -> tuple[Side, Side]:
     """Return the two sets of runs. Raises ConfigError and OSError."""
-    from gradysim.scenario.errors import ConfigError, unknown_name
-
     where = conditions(options.where)
     if second is not None:
         if options.by is not None:
@@ -150,16 +143,11 @@ def _sides(first: Path, second: Path | None, options: CompareOptions) -> tuple[S
     return before, after
 
 
-def changes_table(changes: "Sequence[Change]", names: tuple[str, str], what: str = "") -> "Table":
+def changes_table(changes: Sequence[Change], names: tuple[str, str], what: str = "") -> Table:
     """Return a row for each change. Values shared by all rows become the title.
 
     Names and values come from files: `Text` does not parse their brackets as markup.
     """
-    from rich.text import Text
-
-    from gradysim.cli.console import number_column, report_table, text_column
-    from gradysim.results.compare import varying_values
-
     varying = varying_values(changes)
     table = report_table(
         *map(text_column, [*(f"${name}" for name in varying), "quantity"]),
@@ -174,7 +162,7 @@ def changes_table(changes: "Sequence[Change]", names: tuple[str, str], what: str
     return table
 
 
-def _common_values(changes: "Sequence[Change]", varying: Sequence[str]) -> list[str]:
+def _common_values(changes: Sequence[Change], varying: Sequence[str]) -> list[str]:
     shown = {"config": "{}", "mode": "{} mode"}
     common = (
         {name: value for name, value in changes[0].values.items() if name not in varying} if changes else {}
@@ -182,13 +170,13 @@ def _common_values(changes: "Sequence[Change]", varying: Sequence[str]) -> list[
     return [shown.get(name, f"{name} = {{}}").format(value) for name, value in common.items()]
 
 
-def _number(estimate: "Estimate | None", digits: str) -> str:
+def _number(estimate: Estimate | None, digits: str) -> str:
     if estimate is None:
         return ""
     return f"{estimate.mean:{digits}}" if estimate.mean else "0"
 
 
-def _difference(change: "Change") -> str:
+def _difference(change: Change) -> str:
     """Return the difference, without what is only the rounding error of the means."""
     if change.difference is None or change.first is None:
         return ""
@@ -196,16 +184,14 @@ def _difference(change: "Change") -> str:
     return "0" if is_rounded else _number(change.difference, "+.4g")
 
 
-def _interval(estimate: "Estimate | None") -> str:
-    from gradysim.cli.console import interval_text
-
+def _interval(estimate: Estimate | None) -> str:
     if estimate is None or estimate.low is None:
         return ""
     text = interval_text(estimate.mean, estimate.low, estimate.high, ".3g")
     return f"{text} {'*' if estimate.excludes_zero else ' '}"
 
 
-def _row(change: "Change") -> tuple[Mapping[str, object], Mapping[str, object]]:
+def _row(change: Change) -> tuple[Mapping[str, object], Mapping[str, object]]:
     """Return the values of a change and its other cells, for CSV."""
     cells: dict[str, object] = {"quantity": change.quantity, "pairs": change.pairs}
     for name in _ESTIMATES:

@@ -1,17 +1,18 @@
 """`gradysim desync`: which timers send into each other, and the jitter that they need."""
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
+from rich.table import Table
 
+from gradysim.cli.campaign import campaign_of, print_json, save
+from gradysim.cli.console import console, number_column, report_table
 from gradysim.cli.errors import FAILED, OK, say_mistake
 from gradysim.cli.options import CampaignOptions, FigureOption, FileArgument, RunCountOption
-
-if TYPE_CHECKING:
-    from rich.table import Table
-
-    from gradysim.ladder.desync import Desync
+from gradysim.ladder.desync import Desync, desynchronize
+from gradysim.ladder.desync_words import desync_sentences, text_of_time
+from gradysim.scenario.errors import ConfigError
 
 DEFAULTS = CampaignOptions()
 
@@ -28,16 +29,7 @@ def desynchronize_timers(
     output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
-    """Find timers of nodes that send into each other, and the random delay (jitter) that they need.
-
-    Exit code 1: all runs without jitter fail.
-    """
-    from gradysim.cli.campaign import campaign_of, print_json, save
-    from gradysim.cli.console import console
-    from gradysim.ladder.desync import desynchronize
-    from gradysim.ladder.desync_words import desync_sentences
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim desync`, and return the exit code."""
     try:
         with campaign_of(file, options, run_count) as (campaign, executor):
             found = desynchronize(campaign, executor, metric)
@@ -58,11 +50,8 @@ def desynchronize_timers(
     return FAILED if len(found.failures) == found.runs_per_trial else OK
 
 
-def curve_table(found: "Desync", metric: str | None) -> "Table":
+def curve_table(found: Desync, metric: str | None) -> Table:
     """Return a row for each jitter. An arrow marks the recommended one."""
-    from gradysim.cli.console import number_column, report_table
-    from gradysim.ladder.desync_words import text_of_time
-
     has_failures = any(trial.failures for trial in found.trials)
     headings = [
         "jitter",

@@ -7,9 +7,12 @@ from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
+from rich.markdown import Markdown
 
+from gradysim.cli.console import console
 from gradysim.cli.errors import MISTAKE, OK
 from gradysim.cli.examples import files_root
+from gradysim.scenario.errors import did_you_mean
 
 FOLDERS = ("tutorial", "how-to", "explanation", "reference")
 """Those of a wheel. The others are for contributors."""
@@ -53,9 +56,7 @@ def with_links(text: str) -> str:
 
 
 def show_docs(word: WordArgument = "", /) -> int:
-    """Show a page of the documentation, or list the pages that have a word in their title or text."""
-    from gradysim.scenario.errors import did_you_mean
-
+    """Carry out `gradysim docs`, and return the exit code."""
     known = pages()
     found = _matching(known, word)
     if not found:
@@ -85,9 +86,6 @@ def _print_page(file: Path) -> None:
     if not sys.stdout.isatty():
         print(text, end="")
         return
-    from rich.markdown import Markdown
-
-    from gradysim.cli.console import console
 
     terminal = console()
     os.environ.setdefault("LESS", "-R")  # otherwise it shows the codes of colors

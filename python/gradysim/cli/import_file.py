@@ -1,18 +1,17 @@
 """`gradysim import`: translates an omnetpp.ini of OMNeT++, and lists what was done with each of its lines."""
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from gradysim.cli.errors import MISTAKE, OK, say_mistake
 from gradysim.cli.options import FileArgument
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from gradysim.omnetpp_import import Outcome, Translation
+from gradysim.encapsulator.run_context import gc_paused
+from gradysim.omnetpp_import import Outcome, Translation, translate
+from gradysim.scenario.errors import ConfigError
 
 OutputOption = Annotated[
     Path,
@@ -23,11 +22,7 @@ OutputOption = Annotated[
 
 
 def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported")) -> int:
-    """Translate an .ini file of OMNeT++, and list what was done with each line."""
-    from gradysim.encapsulator.run_context import gc_paused
-    from gradysim.omnetpp_import import translate
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim import`, and return the exit code."""
     target = output / file.name
     if target.exists():
         print(f"{target} is there already; expected another directory: -o DIR", file=sys.stderr)
@@ -46,7 +41,7 @@ def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported"
     return OK
 
 
-def _rows(translation: "Translation", file: Path) -> "Iterator[str]":
+def _rows(translation: Translation, file: Path) -> Iterator[str]:
     for outcome in translation.outcomes:
         place = ""
         if outcome.entry is not None:
@@ -55,7 +50,7 @@ def _rows(translation: "Translation", file: Path) -> "Iterator[str]":
         yield f"{place:>5}  {outcome.action.value:12}  {_text(outcome)}".rstrip()
 
 
-def _text(outcome: "Outcome") -> str:
+def _text(outcome: Outcome) -> str:
     entry = outcome.entry
     before = "" if entry is None else f"{entry.key} = {entry.source.value}"
     line = " ".join(outcome.text.split("\n"))

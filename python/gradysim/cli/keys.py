@@ -2,17 +2,17 @@
 
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
+from rich.console import Group, RenderableType
+from rich.padding import Padding
+from rich.text import Text
 
 from gradysim.cli.docs import with_commands, with_links
 from gradysim.cli.errors import MISTAKE, OK
-
-if TYPE_CHECKING:
-    from rich.console import RenderableType
-
-    from gradysim.scenario.key_list import KeySection
+from gradysim.scenario.key_list import KeySection, key_meant, key_sections, matching
+from gradysim.scenario.native_protocols import native_protocols
 
 _PATTERN = "Part of a key, of its values or of its meaning; or a pattern such as `*.power`."
 
@@ -53,10 +53,7 @@ def list_keys(
     *,
     markdown: Annotated[bool, Parameter(negative="", help="A page in Markdown.")] = False,
 ) -> int:
-    """List the keys of .ini files: unit, default, meaning."""
-    from gradysim.scenario.key_list import key_meant, key_sections, matching
-    from gradysim.scenario.native_protocols import native_protocols
-
+    """Carry out `gradysim keys`, and return the exit code."""
     try:
         natives = list(native_protocols().values())
     except ImportError:
@@ -81,12 +78,8 @@ def list_keys(
     return OK
 
 
-def rich_list(sections: "Iterable[KeySection]") -> "RenderableType":
+def rich_list(sections: Iterable[KeySection]) -> RenderableType:
     """Return a paragraph per key. Names are not broken."""
-    from rich.console import Group
-    from rich.padding import Padding
-    from rich.text import Text
-
     parts: list[RenderableType] = []
     for section in sections:
         parts += [Text(section.title, style="bold underline"), Text()]
@@ -98,13 +91,13 @@ def rich_list(sections: "Iterable[KeySection]") -> "RenderableType":
     return Group(*parts)
 
 
-def plain_text(sections: "Iterable[KeySection]") -> str:
+def plain_text(sections: Iterable[KeySection]) -> str:
     """Return one line per key, with four columns separated by tabs, for other programs."""
     rows = [row for section in sections for row in section.rows]
     return "".join(f"{row.key}\t{row.unit}\t{row.default}\t{with_commands(row.meaning)}\n" for row in rows)
 
 
-def markdown_page(sections: "Iterable[KeySection]") -> str:
+def markdown_page(sections: Iterable[KeySection]) -> str:
     """Return the page docs/reference/keys.md."""
     parts = [with_links(INTRODUCTION)]
     for section in sections:

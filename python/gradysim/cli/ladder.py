@@ -2,19 +2,19 @@
 
 import sys
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
+from rich.table import Column, Table
+from rich.text import Text
 
+from gradysim.cli.campaign import campaign_of, print_json, save
+from gradysim.cli.console import console, interval_text, number_column, report_table, text_column
 from gradysim.cli.errors import FAILED, OK, say_mistake
 from gradysim.cli.options import CampaignOptions, FigureOption, FileArgument, RunCountOption
-
-if TYPE_CHECKING:
-    from rich.table import Table
-
-    from gradysim.ladder.ladder import Rung
-    from gradysim.results.confidence_interval import Estimate
-
+from gradysim.ladder.ladder import Rung, climb, largest_drop
+from gradysim.results.confidence_interval import Estimate
+from gradysim.scenario.errors import ConfigError, nearest
 
 DEFAULTS = CampaignOptions()
 
@@ -36,15 +36,7 @@ def climb_ladder(
     output: FigureOption = None,
     options: CampaignOptions = DEFAULTS,
 ) -> int:
-    """Run a configuration with more and more effects of real radios, and print what each level changes.
-
-    A run that fails does not count in the means. The exit code is 1 then.
-    """
-    from gradysim.cli.campaign import campaign_of, print_json, save
-    from gradysim.cli.console import console
-    from gradysim.ladder.ladder import climb
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim ladder`, and return the exit code."""
     try:
         with campaign_of(file, options, run_count) as (campaign, executor):
             chosen = levels_between(levels, [level.name for level in campaign.levels])
@@ -64,7 +56,7 @@ def climb_ladder(
     return FAILED if any(rung.failures for rung in rungs) else OK
 
 
-def _tell_first_failure(rungs: "list[Rung]", run_count: int) -> None:
+def _tell_first_failure(rungs: list[Rung], run_count: int) -> None:
     failed = [rung for rung in rungs if rung.failures]
     if failed:
         levels = ", ".join(
@@ -77,7 +69,7 @@ def _tell_first_failure(rungs: "list[Rung]", run_count: int) -> None:
         )
 
 
-def rung_json(rung: "Rung") -> dict[str, object]:
+def rung_json(rung: Rung) -> dict[str, object]:
     """Return a level for other programs."""
     return {
         "level": rung.level.name,
@@ -106,8 +98,6 @@ def levels_between(text: str | None, names: list[str]) -> range:
 
 
 def _number_of(text: str, names: list[str]) -> int:
-    from gradysim.scenario.errors import ConfigError, nearest
-
     if text in names:
         return names.index(text)
     if text.isdecimal() and int(text) < len(names):
@@ -119,14 +109,8 @@ def _number_of(text: str, names: list[str]) -> int:
     )
 
 
-def ladder_table(rungs: "list[Rung]", title: str) -> "Table":
+def ladder_table(rungs: list[Rung], title: str) -> Table:
     """Return a row for each level. An arrow marks the largest drop."""
-    from rich.table import Column
-    from rich.text import Text
-
-    from gradysim.cli.console import number_column, report_table, text_column
-    from gradysim.ladder.ladder import largest_drop
-
     table = report_table(
         Column("level", no_wrap=True),
         text_column("adds"),
@@ -150,10 +134,8 @@ def ladder_table(rungs: "list[Rung]", title: str) -> "Table":
     return table
 
 
-def text_of(estimate: "Estimate | None", sign: str = "") -> str:
+def text_of(estimate: Estimate | None, sign: str = "") -> str:
     """Return `12.3 ± 0.4`, with four significant digits, or `0.9 [0.56, 1]`; "failed" without a number."""
-    from gradysim.cli.console import interval_text
-
     if estimate is None:
         return "failed"
     interval = interval_text(estimate.mean, estimate.low, estimate.high, ".2g", "± ")

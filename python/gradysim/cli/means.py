@@ -2,18 +2,18 @@
 
 import sys
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Annotated, TextIO
+from typing import Annotated, TextIO
 
 from cyclopts import Parameter
+from rich.table import Table
+from rich.text import Text
 
+from gradysim.cli.console import console, interval_text, number_column, report_table, text_column, write_csv
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import Names, ResultsArgument
 from gradysim.cli.study import check_quantities, read_study, warn_of_mixed_runs
-
-if TYPE_CHECKING:
-    from rich.table import Table
-
-    from gradysim.results.means import Mean
+from gradysim.results.means import Mean, means
+from gradysim.scenario.errors import ConfigError
 
 _BEFORE = ("config", "mode")
 _AFTER = ("quantity", "runs", "mean", "low", "high", "left_out")
@@ -35,11 +35,7 @@ def print_means(
         bool, Parameter(name="--csv", negative="", help="Print CSV, with all digits, for other programs.")
     ] = False,
 ) -> int:
-    """Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence intervals."""
-    from gradysim.cli.console import console
-    from gradysim.results.means import means
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim means`, and return the exit code."""
     try:
         wanted = (*quantities, *metric)
         results = read_study(directory)
@@ -55,15 +51,11 @@ def print_means(
     return OK
 
 
-def means_table(means: "Sequence[Mean]") -> "Table":
+def means_table(means: Sequence[Mean]) -> Table:
     """Return a row for each mean. A configuration and mode shared by all rows become the title.
 
     Names and values come from files: `Text` does not parse their brackets as markup.
     """
-    from rich.text import Text
-
-    from gradysim.cli.console import interval_text, number_column, report_table, text_column
-
     shared = {"config": "{}", "mode": "{} mode"}
     varying = [name for name in shared if len({getattr(mean, name) for mean in means}) > 1]
     title = [text.format(getattr(means[0], name)) for name, text in shared.items() if name not in varying]
@@ -84,8 +76,6 @@ def means_table(means: "Sequence[Mean]") -> "Table":
     return table
 
 
-def write_means(means: "Sequence[Mean]", output: TextIO) -> None:
+def write_means(means: Sequence[Mean], output: TextIO) -> None:
     """Write CSV with a line for each mean."""
-    from gradysim.cli.console import write_csv
-
     write_csv(output, _BEFORE, _AFTER, [(mean.iterations, vars(mean)) for mean in means])

@@ -14,6 +14,8 @@ from cyclopts import Parameter
 from gradysim.cli import examples
 from gradysim.cli.errors import MISTAKE, OK, say_mistake
 from gradysim.cli.options import Flag
+from gradysim.results.durable import naming
+from gradysim.scenario.errors import did_you_mean
 
 _FILES = {
     "protocols.py": "protocols.py",
@@ -35,7 +37,7 @@ ExampleOption = Annotated[
 
 
 def make_project(name: NameArgument = None, /, *, example: ExampleOption = False) -> int:
-    """Make a directory with a protocol, scenarios and a test, or a copy of an example."""
+    """Carry out `gradysim new`, and return the exit code."""
     if example:
         return _list_examples() if name is None else _copy_example(name)
     if name is None:
@@ -62,8 +64,6 @@ def make_project(name: NameArgument = None, /, *, example: ExampleOption = False
 @contextmanager
 def _making(directory: Path) -> Iterator[None]:
     """Make a directory, and remove it if its files cannot be written, so that the command can be repeated."""
-    from gradysim.results.durable import naming
-
     directory.mkdir(parents=True)
     try:
         with naming(directory):
@@ -81,8 +81,6 @@ def _list_examples() -> int:
 
 
 def _copy_example(name: str) -> int:
-    from gradysim.scenario.errors import did_you_mean
-
     if name not in examples.NAMES:
         names = ", ".join(examples.NAMES)
         suggestion = did_you_mean(name, examples.NAMES)

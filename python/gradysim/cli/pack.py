@@ -8,7 +8,12 @@ from cyclopts import Parameter
 
 from gradysim.cli.errors import LOCKED, OK, say_mistake
 from gradysim.cli.options import Flag, ResultDir
+from gradysim.cli.progress import waiting
 from gradysim.cli.study import check_directory
+from gradysim.execution import packing
+from gradysim.execution.run_lock import RunLockedError
+from gradysim.results.pack import packs_of
+from gradysim.scenario.errors import ConfigError
 
 
 def pack_results(
@@ -26,13 +31,7 @@ def pack_results(
         Flag, Parameter(help="Write the JSON files of the packs, unchanged, into DIR again.")
     ] = False,
 ) -> int:
-    """Put the JSON files of a directory into one SQLite file, which other commands read in their place."""
-    from gradysim.cli.progress import waiting
-    from gradysim.execution import packing
-    from gradysim.execution.run_lock import RunLockedError
-    from gradysim.results.pack import packs_of
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim pack`, and return the exit code."""
     file = output or packing.default_pack(directory)
     try:
         check_directory(directory)

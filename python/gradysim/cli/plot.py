@@ -2,21 +2,18 @@
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import PlotOptions, ResultsArgument
 from gradysim.cli.study import conditions, drawn_text, read_study, warn_of_mixed_runs
-
-if TYPE_CHECKING:
-    from gradysim.results.run_table import Runs
+from gradysim.plots import save_figure
+from gradysim.results.quantity_table import variables_of
+from gradysim.results.run_table import Runs
+from gradysim.scenario.errors import ConfigError
 
 
 def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
-    """Draw a figure of the runs in a directory, and write its numbers and their origin next to it."""
-    from gradysim.plots import save_figure
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim plot`, and return the exit code."""
     try:
         study = read_study(directory)
         runs = _with_variable(directory, study.where(**conditions(options.where)), options.x)
@@ -39,11 +36,8 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
     return OK
 
 
-def _with_variable(directory: Path, runs: "Runs", variable: str | None) -> "Runs":
+def _with_variable(directory: Path, runs: Runs, variable: str | None) -> Runs:
     """Return the runs that have the variable of the x axis, and print the number of others."""
-    from gradysim.results.quantity_table import variables_of
-    from gradysim.results.run_table import Runs
-
     kept = Runs(run for run in runs if variable in variables_of(run))
     if not len(kept) or len(kept) == len(runs):
         return runs  # each run has a value, or `variable` is not known

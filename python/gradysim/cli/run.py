@@ -43,7 +43,7 @@ _LONGEST_S = 366 * 86400
 
 
 def run(file: FileArgument, /, *, options: RunOptions = DEFAULTS) -> int:
-    """Run the runs of a configuration and report their results."""
+    """Carry out `gradysim run`, and return the exit code."""
     from gradysim.encapsulator.run_context import gc_paused
 
     with gc_paused():  # nothing of what is read is garbage

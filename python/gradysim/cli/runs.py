@@ -4,24 +4,20 @@ import contextlib
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gradysim.cli.errors import OK, say_mistake
 from gradysim.cli.options import ConfigOption, FileArgument, SetOption
-
-if TYPE_CHECKING:
-    from gradysim.scenario.lint import Finding
-    from gradysim.scenario.load import Study
-    from gradysim.scenario.scenario import Scenario
+from gradysim.integrated.ranges import lint_ranges
+from gradysim.scenario.errors import ArgumentNames, ConfigError
+from gradysim.scenario.ini import Entry, read_overrides
+from gradysim.scenario.lint import Finding, by_line, lint, unread_variables
+from gradysim.scenario.load import Study, runs_of
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.sweep import text_of_iterations
 
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:
-    """List the runs of a configuration."""
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.lint import unread_variables
-    from gradysim.scenario.load import runs_of
-    from gradysim.scenario.sweep import text_of_iterations
-
+    """Carry out `gradysim runs`, and return the exit code."""
     try:
         for number, repetition, iterations in runs_of(file, config, settings):
             print(f"Run {number}: {text_of_iterations({**iterations, 'repetition': repetition})}")
@@ -40,14 +36,11 @@ def check(
     settings: Sequence[str],
     seed: int | None = None,
     part: slice = slice(None),
-) -> "Study":
+) -> Study:
     """Return the runs of a configuration, or a part of them, checked. Raises ConfigError.
 
     Prints to standard error which of `settings` have no effect because an earlier one has the same key.
     """
-    from gradysim.scenario.errors import ArgumentNames
-    from gradysim.scenario.load import Study
-
     names = ArgumentNames(overrides="--set", seed="--seed", runs="-r", config="-c")
     _warn_of_repeated(settings, file, names.overrides)
     with contextlib.chdir("."):  # files of protocols run, and may change the directory
@@ -55,8 +48,6 @@ def check(
 
 
 def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
-    from gradysim.scenario.ini import Entry, read_overrides
-
     first: dict[str, Entry] = {}
     for entry in read_overrides(file, settings, option):
         above = first.setdefault(entry.key, entry)
@@ -68,13 +59,13 @@ def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
             )
 
 
-def tell(warnings: "Iterable[str | Finding]") -> None:
+def tell(warnings: Iterable[str | Finding]) -> None:
     """Print each warning to standard error."""
     for warning in warnings:
         print(warning, file=sys.stderr)
 
 
-def warnings_of_seeds(study: "Study") -> Iterator[str]:
+def warnings_of_seeds(study: Study) -> Iterator[str]:
     """Yield a line if runs share a seed, all else being equal."""
     if study.has_equal_runs():
         first = study.seeds[0]
@@ -85,11 +76,8 @@ def warnings_of_seeds(study: "Study") -> Iterator[str]:
         )
 
 
-def findings_of(scenarios: "Sequence[Scenario]", mode: str) -> "list[Finding]":
+def findings_of(scenarios: Sequence[Scenario], mode: str) -> list[Finding]:
     """Return the lint findings in the lines of a configuration, in their order."""
-    from gradysim.integrated.ranges import lint_ranges
-    from gradysim.scenario.lint import by_line, lint
-
     findings = lint(scenarios)
     if mode == "integrated":
         from gradysim.integrated.network_lint import lint_networks

@@ -24,7 +24,7 @@ def print_status(
     result_dir: ResultDir = DEFAULT_DIR,
     options: StatusOptions = DEFAULTS,
 ) -> int:
-    """List which runs of a configuration are done. The exit code is 0 only if all of them are."""
+    """Carry out `gradysim status`, and return the exit code."""
     from gradysim.scenario.errors import ConfigError
     from gradysim.scenario.runs import text_of_runs
 

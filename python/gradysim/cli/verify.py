@@ -2,15 +2,14 @@
 
 from gradysim.cli.errors import FAILED, OK, say_mistake
 from gradysim.cli.options import ResultsArgument
+from gradysim.cli.progress import waiting
 from gradysim.cli.study import check_directory
+from gradysim.results.verify import verify
+from gradysim.scenario.errors import ConfigError
 
 
 def verify_files(directory: ResultsArgument, /) -> int:
-    """Verify checksums and hashes of all files of a study, and print a line for each bad file."""
-    from gradysim.cli.progress import waiting
-    from gradysim.results.verify import verify
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim verify`, and return the exit code."""
     try:
         if not directory.is_file():
             check_directory(directory)

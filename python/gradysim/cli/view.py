@@ -5,20 +5,24 @@ import sys
 import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, OK, print_failure, say_mistake
+from gradysim.cli.execution import Run
 from gradysim.cli.guardian import children, ending_children
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import Mode, ViewOptions
 from gradysim.cli.runs import check
-
-if TYPE_CHECKING:
-    from gradysim.cli.execution import Run
-    from gradysim.replay.live import LiveView
-    from gradysim.scenario.scenario import Scenario
+from gradysim.integrated.compiled_part import CompiledPartMissingError
+from gradysim.integrated.run import IntegratedRun
+from gradysim.replay.beside import ReplaysBeside
+from gradysim.replay.file import read_parts
+from gradysim.replay.live import LiveView
+from gradysim.results.durable import naming
+from gradysim.scenario.errors import ConfigError, nearest_file
+from gradysim.scenario.scenario import Scenario
 
 _GRACE_S = 0.4
 """Wall time for callbacks of protocols to return after Ctrl-C, and then for `finish`, in seconds."""
@@ -37,10 +41,7 @@ FilesArgument = Annotated[
 
 
 def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
-    """Show a run in the browser: while it goes on (FILE.ini), or its replay (FILE.html)."""
-    from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors import ConfigError
-
+    """Carry out `gradysim view`, and return the exit code."""
     try:
         if all(file.suffix == ".html" for file in files):
             check_replays(files)
@@ -56,10 +57,6 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
 
 def check_replays(files: Sequence[Path]) -> None:
     """Warn of replays that end early. Raises ConfigError, OSError and ValueError for other files."""
-    from gradysim.replay.file import read_parts
-    from gradysim.results.durable import naming
-    from gradysim.scenario.errors import ConfigError, nearest_file
-
     for file in files:
         try:
             with naming(file):
@@ -84,8 +81,6 @@ def show_replay(file: Path, options: ViewOptions) -> int:
 
 def show_beside(files: Sequence[Path], options: ViewOptions) -> int:
     """Show several replays beside each other. Returns when the viewers have left."""
-    from gradysim.replay.beside import ReplaysBeside
-
     interrupt = StopOnInterrupt(grace_s=_GRACE_S)
     try:
         with ReplaysBeside(files, options.port, options.host) as server, interrupt:
@@ -101,8 +96,6 @@ def show_beside(files: Sequence[Path], options: ViewOptions) -> int:
 
 def show_live(file: Path, options: ViewOptions) -> int:
     """Run a configuration while viewers watch. Returns when the run has ended and they have left."""
-    from gradysim.replay.live import LiveView
-
     interrupt = StopOnInterrupt(grace_s=_GRACE_S)
     try:
         with ending_children() as browsers, LiveView(options.port, options.host) as live, interrupt:
@@ -122,7 +115,7 @@ def show_live(file: Path, options: ViewOptions) -> int:
     return interrupt.exit_code if interrupt.should_stop() else code
 
 
-def _executed(run: "Run", live: "LiveView", interrupt: StopOnInterrupt) -> int:
+def _executed(run: Run, live: LiveView, interrupt: StopOnInterrupt) -> int:
     try:
         with interrupt.executing():
             run.execute(should_stop=live.paced(interrupt.should_stop))
@@ -132,12 +125,11 @@ def _executed(run: "Run", live: "LiveView", interrupt: StopOnInterrupt) -> int:
     return OK
 
 
-def _built(scenario: "Scenario", mode: Mode, live: "LiveView") -> "Run":
+def _built(scenario: Scenario, mode: Mode, live: LiveView) -> Run:
     if mode == "prototype":
         from gradysim.prototype.run import PrototypeRun
 
         return PrototypeRun(scenario, replay=live, log_level=logging.INFO)
-    from gradysim.integrated.run import IntegratedRun
 
     return IntegratedRun(scenario, replay=live, log_level=logging.INFO)
 
