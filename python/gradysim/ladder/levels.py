@@ -15,9 +15,9 @@ from typing import Any
 
 from gradysim.scenario.ini import Section
 from gradysim.scenario.keys import MASSLESS, QUADCOPTER
-from gradysim.scenario.lookup import Setting
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.values import Setting
 
 UNIT_DISK = "UnitDiskRadioMedium"
 _UNLIMITED = "1e9m"
