@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from gradysim.cli.executor import Batch, WorkersLostError
-from gradysim.cli.options import RunOptions
 from gradysim.cli.run_task import Command
 from gradysim.cli.workers import ExecutorWorkers, press
 
@@ -69,33 +68,21 @@ class _DaskWorkers(ExecutorWorkers):
             self._client.close(timeout=_CLOSES_WITHIN_S)
 
 
-def check_executor(options: RunOptions) -> None:
-    """Raise ConfigError if --scheduler has no executor, or if Dask is not installed."""
-    from gradysim.scenario.errors import ConfigError
-
-    if options.executor != "dask":
-        if options.scheduler is not None:
-            raise ConfigError(f"--scheduler {options.scheduler}: expected --executor dask, too")
-        return
-    try:
-        import distributed  # noqa: F401
-    except ImportError as error:
-        raise ConfigError(
-            f"--executor dask: {error}; expected the package distributed: pip install distributed"
-            " (the extra `dask` of gradysim)"
-        ) from error
-
-
 @contextlib.contextmanager
 def dask_workers(command: Command) -> Iterator[ExecutorWorkers]:
     """Connect to the workers of --executor dask. Raises ConfigError.
 
     Without --scheduler, they are threads of this process. Each batch has a process, which ends with this one.
     """
-    import distributed
-
     from gradysim.scenario.errors import ConfigError
 
+    try:
+        import distributed
+    except ImportError as error:
+        raise ConfigError(
+            f"--executor dask: {error}; expected the package distributed: pip install distributed"
+            " (the extra `dask` of gradysim)"
+        ) from error
     dask: Any = distributed  # its classes are not typed
     options = command.options
     for logger in ("distributed", "distributed.client"):  # the command reports a lost cluster

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Protocol, Self
 
 from gradysim.cli.errors import LOCKED, MISTAKE, OK, OVER_MEMORY
-from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.interrupt import KILLING, StopOnInterrupt
 
 _OTHERS_GO_ON = {OK, LOCKED, OVER_MEMORY}
 """Exit codes of runs that do not stop the others."""
@@ -60,11 +60,9 @@ class Workers(Protocol):
     Attributes:
         batch_s: Shortest and longest wall time in seconds that a batch should take. A batch has at least one
             run.
-        batches_each: Number of batches per worker: one that is computed, and those in reserve.
     """
 
     batch_s: tuple[float, float]
-    batches_each: int
 
     def count(self) -> int:
         """Return how many batches are computed at the same time. Raises WorkersLostError."""
@@ -78,14 +76,11 @@ class Workers(Protocol):
     def stop(self, batches: Iterable[Batch], presses: int) -> list[Batch]:
         """Let no more run begin in these batches, and pass on the number of presses of Ctrl-C.
 
-        Returns the batches that were canceled.
+        Returns the batches that were canceled. `KILLING` presses kill the processes of all batches.
         """
 
     def lost(self) -> WorkersLostError:
         """Return the error after a batch was canceled otherwise."""
-
-    def kill(self) -> None:
-        """Kill the processes of all batches."""
 
 
 class RunExecutor:
@@ -107,7 +102,7 @@ class RunExecutor:
 
     def __exit__(self, *_: object) -> None:
         if self._batches:
-            self._workers.kill()
+            self._workers.stop(self._batches, KILLING)
 
     @property
     def under_way(self) -> list[int]:
@@ -135,7 +130,7 @@ class RunExecutor:
                     return
                 if not count and self._interrupt.should_stop():
                     raise KeyboardInterrupt
-            while waiting and len(self._batches) < self._workers.batches_each * count:
+            while waiting and len(self._batches) < count:
                 size = min(self._batch_size(len(waiting), count), len(waiting))
                 batch_numbers = tuple(waiting.popleft() for _ in range(size))
                 self._batches[self._workers.begin(batch_numbers)] = batch_numbers
@@ -148,9 +143,8 @@ class RunExecutor:
         """Return the number of runs in the next batch, of those that are left for a number of workers."""
         if self._run_s is None:
             return 1
-        even = left / (self._workers.batches_each * count)
         shortest, longest = (batch_s / self._run_s for batch_s in self._workers.batch_s)
-        return max(1, round(min(max(even, shortest), longest)))
+        return max(1, round(min(max(left / count, shortest), longest)))
 
     def _rows_of(self, batch: Batch) -> list[Row]:
         """Return the rows of a batch that has ended."""

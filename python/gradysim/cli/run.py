@@ -77,7 +77,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         executor: Executes batches of runs; the caller shuts it down. Its workers read the file themselves, so
             they need the same directories and packages. By default each run has a process of this machine.
     """
-    from gradysim.cli.dask_workers import check_executor, dask_workers
+    from gradysim.cli.dask_workers import dask_workers
     from gradysim.cli.workers import ExecutorWorkers
     from gradysim.execution.run_lock import remove_left_over_files
     from gradysim.integrated.compiled_part import CompiledPartMissingError
@@ -87,7 +87,6 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
     gc.freeze()  # excludes modules from the open files, which the runner searches
     with ExitStack() as connection:
         try:
-            check_executor(options)
             stop_after_s = checked_duration(options.stop_after)
             prepared = _prepare(file, options)
             if prepared is None:
@@ -132,10 +131,12 @@ def _prepare(file: Path, options: RunOptions, study: "Study | None" = None) -> _
     from gradysim.cli.execution import check_names, simulator
     from gradysim.cli.progress import waiting
     from gradysim.cli.run_task import Command
-    from gradysim.scenario.errors import ErrorCollector
+    from gradysim.scenario.errors import ConfigError, ErrorCollector
 
     bar = _has_bar(options)
     check_jobs(options.jobs)
+    if options.scheduler is not None and options.executor != "dask":
+        raise ConfigError(f"--scheduler {options.scheduler}: expected --executor dask, too")
     checked_limit(options.memory)
     until = checked_until(options)
     check_sqlite(options)

@@ -60,8 +60,11 @@ def run_all(
     with suppress(OSError):  # standard error may fail, too
         if output_error is not None and not (complete and isinstance(output_error, BrokenPipeError)):
             print(f"standard output: {output_error.strerror}", file=sys.stderr)
-        if not complete:
-            _print_unfinished(config, numbers, codes, under_way, lost)
+        reasons = [] if lost is None else [str(lost)]
+        if not complete and len(numbers) > 1:
+            reasons.append(text_of_unfinished(config, numbers, codes, under_way))
+        if reasons:
+            print("; ".join(reasons), file=sys.stderr)
     if output_error is not None:
         return OK if complete and isinstance(output_error, BrokenPipeError) else MISTAKE
     if lost is not None:
@@ -95,47 +98,24 @@ def _shown(row: Row, config: str) -> tuple[int, OSError | None]:
 _ENDED = {INTERRUPTED: "was interrupted", LOCKED: "was left out"}
 
 
-def _print_unfinished(
-    config: str,
-    numbers: Sequence[int],
-    codes: Mapping[int, int],
-    under_way: Sequence[int],
-    lost: Exception | None,
-) -> None:
-    """Print to standard error which of several runs are missing, in one line that begins with `lost`.
-
-    `codes` are those of the runs that have ended. Those `under_way` were killed, or their end is not known.
-    """
-    line = [] if lost is None else [str(lost)]
-    if len(numbers) > 1:
-        done = [number for number in numbers if codes.get(number) == OK]
-        known = {*codes, *under_way}
-        missing = [number for number in numbers if number not in known]
-        ended = {number: _ENDED.get(code, "failed") for number, code in sorted(codes.items()) if code != OK}
-        line.append(text_of_unfinished(config, done, ended, missing, under_way))
-    if line:
-        print("; ".join(line), file=sys.stderr)
-
-
 def text_of_unfinished(
-    config: str,
-    done: Sequence[int],
-    ended: Mapping[int, str],
-    left: Sequence[int],
-    under_way: Sequence[int] = (),
+    config: str, numbers: Sequence[int], codes: Mapping[int, int], under_way: Sequence[int] = ()
 ) -> str:
-    """Return which runs of `config` are done, which `ended` otherwise, and which are `under_way` or `left`.
+    """Return how many of the runs are done, which of them ended otherwise, and which did not.
 
-    Numbers are in increasing order. `ended` is "failed" or "was interrupted".
+    `numbers` increase. `codes` are those of the runs that have ended. Those `under_way` were killed, or their
+    end is not known.
     """
-    which = [f"run {number} {how}" for number, how in ended.items()]
-    count = len(done) + len(ended) + len(under_way) + len(left)
-    which.append(f"{len(done)} of {count} runs {'is' if len(done) == 1 else 'are'} done{_numbers(done)}")
-    for numbers, what in ((under_way, "under way"), (left, "not begun")):
-        if numbers:
-            which.append(f"{len(numbers)} {'was' if len(numbers) == 1 else 'were'} {what}{_numbers(numbers)}")
+    which = [f"run {number} {_ENDED.get(code, 'failed')}" for number, code in sorted(codes.items()) if code]
+    done = [number for number in numbers if codes.get(number) == OK]
+    which.append(f"{len(done)} of {len(numbers)} runs {'is' if len(done) == 1 else 'are'} done{_list(done)}")
+    begun = {*codes, *under_way}
+    missing = [number for number in numbers if number not in begun]
+    for left, how in ((under_way, "under way"), (missing, "not begun")):
+        if left:
+            which.append(f"{len(left)} {'was' if len(left) == 1 else 'were'} {how}{_list(left)}")
     return f"{config}: {', '.join(which)}"
 
 
-def _numbers(numbers: Sequence[int]) -> str:
+def _list(numbers: Sequence[int]) -> str:
     return f" ({text_of_runs(numbers)})" if numbers else ""

@@ -37,7 +37,6 @@ class ForkedWorkers:
     """Processes of this machine, each forked for one run. Presses reach them directly, by signals."""
 
     batch_s = (0.0, 0.0)
-    batches_each = 1
 
     def __init__(
         self,
@@ -80,23 +79,20 @@ class ForkedWorkers:
         self._forks.advance()
 
     def stop(self, batches: Iterable[Batch], presses: int) -> list[Batch]:
-        """Do nothing: presses are signals, and each batch has begun."""
+        """Kill the processes after `KILLING` presses. Others reach them by signals."""
+        if presses >= KILLING:
+            self._forks.shutdown()
         return []
 
     def lost(self) -> WorkersLostError:
         """Never called: nothing cancels these batches."""
         raise NotImplementedError
 
-    def kill(self) -> None:
-        """Kill the processes."""
-        self._forks.shutdown()
-
 
 class ExecutorWorkers:
     """The workers of any executor, such as a pool of processes."""
 
     batch_s = (2.0, 5.0)
-    batches_each = 2
 
     def __init__(self, executor: Executor, count: int, command: Command) -> None:
         """`count` batches are computed at the same time. The caller shuts the executor down."""
@@ -127,10 +123,6 @@ class ExecutorWorkers:
     def lost(self) -> WorkersLostError:
         """Return the error after the executor has canceled a batch."""
         return WorkersLostError("the executor has canceled its tasks")
-
-    def kill(self) -> None:
-        """Kill the processes of this command that workers of this process have."""
-        self.press(KILLING)
 
     def press(self, presses: int) -> None:
         """Pass on presses to the processes of the workers, of which an executor reaches only this one."""

@@ -22,7 +22,6 @@ class ByHand:
     """Two workers, as those of a cluster: each wait ends the first batch, with the next of `ends`."""
 
     batch_s = (2.0, 5.0)
-    batches_each = 2
 
     def __init__(self):
         self.begun = []
@@ -30,7 +29,6 @@ class ByHand:
         self.ends = deque()
         self.presses = []
         self.cancels = True
-        self.is_killed = False
 
     def count(self):
         return 2
@@ -53,9 +51,6 @@ class ByHand:
     def lost(self):
         return WorkersLostError("lost")
 
-    def kill(self):
-        self.is_killed = True
-
 
 @pytest.fixture
 def workers():
@@ -75,8 +70,8 @@ def all_rows(executor, count):
 def test_batches_have_one_run_first_and_five_seconds_later(executor, workers):
     rows = all_rows(executor, 10_000)
     sizes = [len(numbers) for numbers in workers.begun]
-    assert sizes[:4] == [1, 1, 1, 1]
-    assert sizes[4] == 5 / RUN_S
+    assert sizes[:2] == [1, 1]
+    assert sizes[2] == 5 / RUN_S
     assert sizes[-2] == 2 / RUN_S
     assert [row.number for row in rows] == list(range(10_000))
     assert {row.code for row in rows} == {OK}
@@ -84,12 +79,12 @@ def test_batches_have_one_run_first_and_five_seconds_later(executor, workers):
 
 def test_runs_of_less_than_two_seconds_stay_together(executor, workers):
     all_rows(executor, 40)
-    assert workers.begun[4:] == [tuple(range(4, 40))]
+    assert workers.begun[2:] == [tuple(range(2, 40))]
 
 
-def test_each_worker_has_a_batch_in_reserve(executor, workers):
+def test_each_worker_has_one_batch(executor, workers):
     next(executor.rows(range(9)))
-    assert workers.begun == [(0,), (1,), (2,), (3,)]
+    assert workers.begun == [(0,), (1,)]
 
 
 @pytest.mark.parametrize(
@@ -98,7 +93,7 @@ def test_each_worker_has_a_batch_in_reserve(executor, workers):
 def test_after_a_failure_no_batch_begins(executor, workers, row):
     workers.ends.append([row])
     assert all_rows(executor, 9) == [row]
-    assert len(workers.begun) == 4
+    assert workers.begun == [(0,), (1,)]
     assert executor.under_way == []
 
 
@@ -118,9 +113,9 @@ def test_batches_that_are_not_canceled_get_each_press(executor, workers):
     rows = executor.rows(range(9))
     next(rows)
     signal.raise_signal(signal.SIGINT)
-    workers.ends.extend([[]] * 3)
-    assert list(rows) == [[]] * 3
-    assert workers.presses == [1] * 3
+    workers.ends.append([])
+    assert list(rows) == [[]]
+    assert workers.presses == [1]
 
 
 def test_without_workers_one_press_is_enough(executor, workers):
@@ -159,7 +154,7 @@ def test_batches_that_have_not_ended_are_killed(executor, workers, is_left):
             next(executor.rows(range(3)))
         else:
             all_rows(executor, 3)
-    assert workers.is_killed == is_left
+    assert workers.presses == ([KILLING] if is_left else [])
 
 
 @pytest.mark.parametrize("jobs", [1, 3])

@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli.dask_workers import WITHOUT_WORKERS_S
+from gradysim.cli.errors import OK
 from gradysim.cli.run_all import text_of_unfinished
 
 GUIDE = "docs/how-to/run-on-a-cluster.md"
@@ -79,7 +80,7 @@ def test_the_script_of_a_job_runs(code_blocks: CodeBlocks, shell: Shell, swarm: 
 def test_what_dask_prints_is_as_shown(code_blocks: CodeBlocks) -> None:
     *_, here, _, lost = code_blocks(GUIDE, "text")
     assert here.splitlines()[-1] == "--executor dask: 2 workers on this machine, as no --scheduler is given"
-    runs = text_of_unfinished("Study", range(12), {}, [18, 19], under_way=range(12, 18))
+    runs = text_of_unfinished("Study", range(20), dict.fromkeys(range(12), OK), under_way=range(12, 18))
     assert lost.endswith(f"; {runs}\n")
 
 

@@ -7,6 +7,7 @@ import pytest
 
 pytest.importorskip("gradysim._netsim")
 
+from gradysim.cli.errors import INTERRUPTED, OK
 from gradysim.cli.run_all import text_of_unfinished
 
 GUIDE = "docs/how-to/stop-and-resume.md"
@@ -42,4 +43,4 @@ def test_repetitions_are_added(
 
 def test_the_unfinished_runs_are_named_as_shown(code_blocks: CodeBlocks) -> None:
     shown = code_blocks(GUIDE, "text")[0].splitlines()[-1]
-    assert shown == text_of_unfinished("Study", range(12), {12: "was interrupted"}, range(13, 20))
+    assert shown == text_of_unfinished("Study", range(20), {**dict.fromkeys(range(12), OK), 12: INTERRUPTED})
