@@ -1,6 +1,6 @@
 """Mobility commands for a node that an autopilot flies."""
 
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from gradysim.encapsulator.validation import geo_target, is_speed, three_numbers, wrong_mobility
 from gradysim.protocol.errors import MasslessMobilityException
@@ -10,12 +10,10 @@ from gradysim.protocol.messages.mobility import (
     MobilityCommandType,
 )
 from gradysim.protocol.position import Position
-
-if TYPE_CHECKING:
-    from gradysim.sitl.pilot import Pilot
+from gradysim.sitl.pilot import Pilot
 
 
-def give_order(command: MobilityCommand, node_id: int, reference: Position, pilot: "Pilot") -> None:
+def give_order(command: MobilityCommand, node_id: int, reference: Position, pilot: Pilot) -> None:
     """Let the vehicle of a node carry out a mobility command: GOTO_COORDS, GOTO_GEO_COORDS or SET_SPEED.
 
     SET_SPEED has a ground speed or a velocity. `reference` is (latitude deg, longitude deg, altitude m) of

@@ -1,9 +1,9 @@
 """Autopilots of the nodes of a scenario, for both modes."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
+from gradysim.motion.quadcopter import DRAG_KGPS
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.protocol.position import Position
 from gradysim.scenario.errors import ConfigError, Source
@@ -11,10 +11,11 @@ from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.sitl import SitlError
-
-if TYPE_CHECKING:
-    from gradysim.sitl.autopilot_node import AutopilotNode
-    from gradysim.sitl.flights import Flights
+from gradysim.sitl.arducopter import find_arducopter
+from gradysim.sitl.autopilot_node import AutopilotNode, check_start, sets_wind, wind_mps
+from gradysim.sitl.flights import Flights
+from gradysim.sitl.mavlink import load_dialect
+from gradysim.sitl.process import user_for
 
 
 def check_autopilots(scenario: Scenario) -> None:
@@ -28,25 +29,19 @@ def check_autopilots(scenario: Scenario) -> None:
             _check(spec, spec.autopilot, scenario.reference_coordinates)
 
 
-def flights_of(scenario: Scenario, on_text: Callable[[str, str], None] | None = None) -> "Flights":
+def flights_of(scenario: Scenario) -> Flights:
     """Return the flights of all nodes with an autopilot, not started.
 
-    `on_text` is called with the name of a node and each text of its autopilot. ConfigError as
-    `check_autopilots`.
+    ConfigError as `check_autopilots`.
     """
     check_autopilots(scenario)
-    from gradysim.sitl.flights import Flights
-
     nodes = [
         _node_of(spec, spec.autopilot, scenario) for spec in scenario.nodes if spec.autopilot is not None
     ]
-    return Flights(nodes, scenario.reference_coordinates, on_text=on_text)
+    return Flights(nodes, scenario.reference_coordinates)
 
 
-def _node_of(spec: NodeSpec, autopilot: AutopilotSpec, scenario: Scenario) -> "AutopilotNode":
-    from gradysim.motion.quadcopter import DRAG_KGPS
-    from gradysim.sitl.autopilot_node import AutopilotNode, sets_wind
-
+def _node_of(spec: NodeSpec, autopilot: AutopilotSpec, scenario: Scenario) -> AutopilotNode:
     is_windy = scenario.wind and not sets_wind(autopilot.parameters)
     return AutopilotNode(
         id=spec.id,
@@ -62,11 +57,6 @@ def _node_of(spec: NodeSpec, autopilot: AutopilotSpec, scenario: Scenario) -> "A
 
 
 def _check(spec: NodeSpec, autopilot: AutopilotSpec, reference: Position) -> None:
-    from gradysim.sitl.arducopter import find_arducopter
-    from gradysim.sitl.autopilot_node import check_start, wind_mps
-    from gradysim.sitl.mavlink import load_dialect
-    from gradysim.sitl.process import user_for
-
     if issubclass(spec.protocol, NativeProtocol):
         text = f"{spec.name}: autopilots work only with Python protocols; expected another mobility.typename"
         raise ConfigError.at(autopilot.source, text)

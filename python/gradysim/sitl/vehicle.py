@@ -124,12 +124,7 @@ class Vehicle:
             self._request_stream(dialect.MAV_DATA_STREAM_POSITION, position_hz)
             return
         identifier, interval_us = dialect.MAVLINK_MSG_ID_GLOBAL_POSITION_INT, round(1e6 / position_hz)
-        command = dialect.MAV_CMD_SET_MESSAGE_INTERVAL
-        self.link.send(
-            dialect.MAVLink_command_long_message(
-                *self.link.target, command, 0, identifier, interval_us, *([0] * 5)
-            )
-        )
+        self._send_command(dialect.MAV_CMD_SET_MESSAGE_INTERVAL, identifier, interval_us)
 
     async def find_position(self, timeout_s: float) -> None:
         """Wait until the autopilot knows its position by GPS."""
@@ -148,7 +143,7 @@ class Vehicle:
         async def switch() -> Message:
             ack = await self._answer("mode GUIDED", dialect.MAV_CMD_DO_SET_MODE, custom, COPTER_GUIDED)
             if ack.result == dialect.MAV_RESULT_UNSUPPORTED:  # ArduCopter 3: a message without reply.
-                self.link.send(dialect.MAVLink_set_mode_message(self.link.target[0], custom, COPTER_GUIDED))
+                self._send("set_mode", self.link.target[0], custom, COPTER_GUIDED)
                 return None
             return ack
 
@@ -178,18 +173,10 @@ class Vehicle:
     def go_to(self, latitude: float, longitude: float, height_m: float) -> None:
         """Command a straight flight to a place. It replaces the previous target or velocity. No reply."""
         latitude, longitude = off_null_island(latitude, longitude)
-        self.link.send(
-            self._dialect.MAVLink_set_position_target_global_int_message(
-                0,
-                *self.link.target,
-                self._dialect.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT,
-                _POSITION_ONLY,
-                round(latitude * 1e7),
-                round(longitude * 1e7),
-                height_m,
-                *([0] * 8),
-            )
-        )
+        frame = self._dialect.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
+        place = (round(latitude * 1e7), round(longitude * 1e7), height_m)
+        kind = "set_position_target_global_int"
+        self._send(kind, 0, *self.link.target, frame, _POSITION_ONLY, *place, *([0] * 8))
 
     async def arrive(self, latitude: float, longitude: float, height_m: float, timeout_s: float) -> None:
         """Fly to a place and wait until it is within 1 m."""
@@ -207,17 +194,10 @@ class Vehicle:
 
     def set_velocity(self, north_mps: float, east_mps: float, up_mps: float) -> None:
         """Command a velocity. The vehicle stops 3 s (of its own time) after the last command. No reply."""
-        self.link.send(
-            self._dialect.MAVLink_set_position_target_local_ned_message(
-                0,
-                *self.link.target,
-                self._dialect.MAV_FRAME_LOCAL_NED,
-                _VELOCITY_ONLY,
-                *(0, 0, 0),
-                *(north_mps, east_mps, -up_mps),
-                *([0] * 5),
-            )
-        )
+        frame = self._dialect.MAV_FRAME_LOCAL_NED
+        vector = (0, 0, 0, north_mps, east_mps, -up_mps, *([0] * 5))
+        kind = "set_position_target_local_ned"
+        self._send(kind, 0, *self.link.target, frame, _VELOCITY_ONLY, *vector)
 
     async def set_speed(self, speed_mps: float) -> None:
         """Set the ground speed of the flight to the present target. Climbing has its own speed.
@@ -230,7 +210,7 @@ class Vehicle:
 
     async def set_parameter(self, name: str, value: float) -> None:
         """Set a parameter of the autopilot and wait for its confirmation."""
-        dialect = self._dialect
+        real = self._dialect.MAV_PARAM_TYPE_REAL32
 
         def confirmed(message: Message) -> bool:
             return (
@@ -240,11 +220,7 @@ class Vehicle:
             )
 
         for _ in range(_TRIES):
-            self.link.send(
-                dialect.MAVLink_param_set_message(
-                    *self.link.target, name.encode(), value, dialect.MAV_PARAM_TYPE_REAL32
-                )
-            )
+            self._send("param_set", *self.link.target, name.encode(), value, real)
             if await self.link.wait_for(confirmed, _ANSWER_S) is not None:
                 return
         raise self._failure(
@@ -254,11 +230,8 @@ class Vehicle:
     def send_heartbeat(self) -> None:
         """Send the HEARTBEAT of a ground station. Without it a real vehicle considers its link lost."""
         dialect = self._dialect
-        self.link.send(
-            dialect.MAVLink_heartbeat_message(
-                dialect.MAV_TYPE_GCS, dialect.MAV_AUTOPILOT_INVALID, 0, 0, dialect.MAV_STATE_ACTIVE, 3
-            )
-        )
+        station, active = dialect.MAV_TYPE_GCS, dialect.MAV_STATE_ACTIVE
+        self._send("heartbeat", station, dialect.MAV_AUTOPILOT_INVALID, 0, 0, active, 3)
 
     def check_flight(self, step: str = "flight") -> None:
         """Raise SitlError if it is disarmed or in another mode by its latest HEARTBEAT."""
@@ -279,25 +252,31 @@ class Vehicle:
     def _request_stream(self, stream: int, rate_hz: float) -> None:
         """Request messages from ArduCopter 3, by REQUEST_DATA_STREAM. There is no reply."""
         rate = max(1, round(rate_hz))
-        self.link.send(self._dialect.MAVLink_request_data_stream_message(*self.link.target, stream, rate, 1))
+        self._send("request_data_stream", *self.link.target, stream, rate, 1)
+
+    def _send(self, kind: str, *fields: object) -> None:
+        """Send a message of the dialect."""
+        self.link.send(getattr(self._dialect, f"MAVLink_{kind}_message")(*fields))
+
+    def _send_command(self, command: int, *parameters: float, attempt: int = 0) -> None:
+        """Send a COMMAND_LONG. Parameters that are not given are 0."""
+        values = [*parameters, *([0.0] * (7 - len(parameters)))]
+        self._send("command_long", *self.link.target, command, attempt, *values)
 
     async def _answer(self, step: str, command: int, *parameters: float) -> Message:
         """Send a command until it is acknowledged. Return the COMMAND_ACK."""
-        dialect = self._dialect
-        values = [*parameters, *([0.0] * (7 - len(parameters)))]
+        in_progress = self._dialect.MAV_RESULT_IN_PROGRESS
 
         def answers(message: Message) -> bool:
             return (
                 _is("COMMAND_ACK")(message)
                 and bool(message.command == command)
-                and bool(message.result != dialect.MAV_RESULT_IN_PROGRESS)
+                and bool(message.result != in_progress)
             )
 
         async with self._commands:  # COMMAND_ACK names only the command, so send one at a time.
             for attempt in range(_TRIES):
-                self.link.send(
-                    dialect.MAVLink_command_long_message(*self.link.target, command, attempt, *values)
-                )
+                self._send_command(command, *parameters, attempt=attempt)
                 ack = await self.link.wait_for(answers, _ANSWER_S)
                 if ack is not None:
                     return ack
