@@ -69,6 +69,7 @@ COMMANDS = {
     "Write": {
         "new": ("new:make_project", "gradysim new swarm"),
         "check": ("check:check_file", "gradysim check swarm.ini -c Study"),
+        "explain": ("explain:explain_parameter", "gradysim explain swarm.ini 'uavs[3].mobility.speed'"),
         "docs": ("docs:show_docs", "gradysim docs fly-a-mission"),
         "keys": ("keys:list_keys", "gradysim keys communicationRange"),
         "calibrate": ("calibrate:calibrate_power", "gradysim calibrate swarm.ini --range 50m"),

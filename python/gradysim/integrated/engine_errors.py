@@ -8,13 +8,12 @@ import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.scenario.errors import ConfigError, is_fully_qualified, nearest_file
-from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS, written_for
+from gradysim.scenario.keys import KEYS_BY_TARGET, NETWORK_KEYS, NODE_KEYS, written_for
 from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
 from gradysim.scenario.units import UNITS
 from gradysim.scenario.values import Setting
@@ -73,7 +72,7 @@ def _engine_error(error: "_netsim.ConfigError", settings: Mapping[str, Setting])
     if not target:
         text = text_of(error)
         return EngineError(text) if place is None else EngineError.at(place.source, text)
-    key = _keys_by_target().get(target)
+    key = KEYS_BY_TARGET.get(target)
     name = _name(target, error.interface)
     value = _text([error.value], key, error.interface)
     message = _text(error.message, key, error.interface)
@@ -107,7 +106,7 @@ def _text(parts: Sequence["MessagePart"], key: Key | None, interface: int | None
 
 def _name(target: str, interface: int | None) -> str:
     """Return the .ini file's name of a field; the engine's name if no key sets it."""
-    key = _keys_by_target().get(target)
+    key = KEYS_BY_TARGET.get(target)
     if key is None:
         return target
     return written_for(key.written, "" if interface is None else f"wlan[{interface}]")
@@ -126,12 +125,6 @@ def _quantity(value: float, unit: str, key: Key | None) -> str:
         if abs(in_that) >= 1:
             return f"{in_that:.6g}{name}"
     return f"{value:.6g}{unit}"
-
-
-@cache
-def _keys_by_target() -> Mapping[str, Key]:
-    """Return the key of each field. Of several keys, the last one has the field's own unit."""
-    return {key.target: key for key in (*NETWORK_KEYS, *NODE_KEYS)}
 
 
 def _for(target: str, name: str, place: Setting | None) -> str:
@@ -159,7 +152,7 @@ def _cause(error: "_netsim.ConfigError", settings: Mapping[str, Setting]) -> str
     named = [part[0] for part in error.message if isinstance(part, tuple) and len(part) == 1]
     if not error.field:
         return next((target for target in named if target in settings), "")
-    key = _keys_by_target().get(error.field)
+    key = KEYS_BY_TARGET.get(error.field)
     chosen_by = [key.read_by.chosen_by] if key and key.read_by else []
     of_protocol = ["protocol."] if error.field.startswith("protocol.") else []
     causes = [*error.compared_with, *chosen_by, *of_protocol, "node.num_wlan_interfaces"]
@@ -169,9 +162,9 @@ def _cause(error: "_netsim.ConfigError", settings: Mapping[str, Setting]) -> str
 
 def _is_read(target: str, settings: Mapping[str, Setting]) -> bool:
     """Return whether the model that reads the setting is chosen."""
-    key = _keys_by_target().get(target)
+    key = KEYS_BY_TARGET.get(target)
     if key is None or key.read_by is None:
         return True
     chooser = key.read_by.chosen_by
-    chosen = settings[chooser].value if chooser in settings else _keys_by_target()[chooser].defaults[""]
+    chosen = settings[chooser].value if chooser in settings else KEYS_BY_TARGET[chooser].defaults[""]
     return chosen in key.read_by.names

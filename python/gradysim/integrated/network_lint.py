@@ -2,10 +2,9 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import chain
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, NamedTuple
 
 from gradysim.integrated.network import by_kind, medium_config, node_config, one_of_each_kind
@@ -13,30 +12,21 @@ from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import Source
 from gradysim.scenario.ini import PROFILES
 from gradysim.scenario.keys import (
-    ARDUPILOT,
     IEEE802154,
+    KEYS_BY_TARGET,
     NETWORK_KEYS,
-    NODE_KEYS,
-    OF_802154,
     has_radios,
     written_for,
 )
 from gradysim.scenario.lint import Finding, by_line
+from gradysim.scenario.models import Chosen, Models, unmet_choice
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.schema import ReadBy
-from gradysim.scenario.values import Setting
+from gradysim.scenario.values import SettingReader
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig
-
-Chosen = Callable[[str], str | None]
-"""Maps the target of a key that chooses a model to the model, written or by default.
-
-None if the file chooses none, by `typename = ""`. The parameters of that model are not reported.
-"""
-
-KEYS = {key.target: key for key in (*NODE_KEYS, *NETWORK_KEYS, *OF_802154.values())}
 
 _CHOOSERS_OF_THE_NETWORK = frozenset(key.target for key in NETWORK_KEYS)
 
@@ -54,7 +44,7 @@ def lint_networks(scenarios: Iterable[Scenario]) -> list[Finding]:
     different = {(id(scenario.nodes), id(scenario.medium)): scenario for scenario in scenarios}
     for scenario in different.values():
         medium = medium_config(scenario)
-        _add_lines(unread, scenario, medium)
+        _add_lines(unread, scenario)
         findings += _ground(scenario, medium)
         findings += _obstacles_far_from_all_nodes(scenario)
         if has_radios(medium.typename):
@@ -66,17 +56,6 @@ def lint_networks(scenarios: Iterable[Scenario]) -> list[Finding]:
 
 # Unread lines: parameters of a model that was not chosen. A line counts as read if one node, or the network,
 # reads it in one run of a study, since a line with wildcards is meant for the nodes that have the model.
-
-
-def unmet_choice(target: str, chosen: Chosen) -> ReadBy | None:
-    """Return what must be chosen for the key with this target to be read; None if it is read."""
-    read_by = KEYS[target].read_by if target in KEYS else None
-    if read_by is None:
-        return None
-    outer = unmet_choice(read_by.chosen_by, chosen)
-    if outer is not None:
-        return outer
-    return None if chosen(read_by.chosen_by) in (*read_by.names, None) else read_by
 
 
 @dataclass
@@ -95,20 +74,19 @@ class UnreadLines:
         self._read: set[Source] = set()
         self._unread: dict[Source, _Unread] = {}
 
-    def add(self, sources: Mapping[str, Source], chosen: Chosen, node: str = "") -> None:
-        """Add the effective lines for one node, or for the network, by the targets of their keys.
+    def add(self, target: str, source: Source, chosen: Chosen, node: str = "") -> None:
+        """Add a line in force for one node, or for the network, by the target of its key.
 
         `node` is the node, or its group, as .ini files write it: "uavs[*]".
         """
-        for target, source in sources.items():
-            choice = unmet_choice(target, chosen)
-            if choice is None or source.file.parent == PROFILES:  # a profile is meant to be overridden
-                self._read.add(source)
-                continue
-            prefix = "*." if choice.chosen_by in _CHOOSERS_OF_THE_NETWORK else f"*.{node}."
-            unread = self._unread.setdefault(source, _Unread(choice, prefix))
-            if unread.choice == choice:
-                unread.chosen.add(chosen(choice.chosen_by) or "")
+        choice = unmet_choice(target, chosen)
+        if choice is None or source.file.parent == PROFILES:  # a profile is meant to be overridden
+            self._read.add(source)
+            return
+        prefix = "*." if choice.chosen_by in _CHOOSERS_OF_THE_NETWORK else f"*.{node}."
+        unread = self._unread.setdefault(source, _Unread(choice, prefix))
+        if unread.choice == choice:
+            unread.chosen.add(chosen(choice.chosen_by) or "")
 
     def findings(self) -> Iterator[Finding]:
         """Yield one finding for all lines that lack the same choice, at the first of them."""
@@ -116,7 +94,7 @@ class UnreadLines:
         unread_sources = self._unread.keys() - self._read
         for source in sorted(unread_sources, key=lambda source: (source.file, source.line, source.key)):
             unread = self._unread[source]
-            key = unread.prefix + written_for(KEYS[unread.choice.chosen_by].written, source.key)
+            key = unread.prefix + written_for(KEYS_BY_TARGET[unread.choice.chosen_by].written, source.key)
             alike.setdefault((key, unread.choice, frozenset(unread.chosen)), []).append(source)
         for (key, choice, chosen), (first, *others) in alike.items():
             yield Finding(
@@ -143,47 +121,13 @@ def _joined(texts: list[str], word: str) -> str:
     return f" {word} ".join([*([", ".join(texts[:-1])] if texts[1:] else []), texts[-1]])
 
 
-def _add_lines(lines: UnreadLines, scenario: Scenario, medium: "MediumConfig") -> None:
+def _add_lines(lines: UnreadLines, scenario: Scenario) -> None:
     """Add the lines of one run."""
-    of_network = _sources("medium", scenario.medium)
-    chosen = _chosen({"medium": medium}, of_network)
-    lines.add(of_network, chosen)
-    for obstacle in scenario.obstacles:
-        lines.add(obstacle.sources, chosen)
-    for spec in one_of_each_kind(scenario.nodes):
-        config = node_config(spec)
-        name = f"{spec.group}[*]" if spec.name.endswith("]") else spec.name
-        sources = {f"protocol.{name}": source for name, source in spec.protocol_sources.items()}
-        sources |= _sources("mobility", spec.mobility) | _sources("autopilot", spec.idle_autopilot)
-        flown = SimpleNamespace(typename=ARDUPILOT)  # the engine moves it as a massless vehicle
-        of_node = {"medium": medium, "mobility": config.mobility if spec.autopilot is None else flown}
-        lines.add(sources, _chosen(of_node, {*of_network, *sources}), name)
-        for interface, wlan in zip(config.wlan, spec.wlan, strict=True):
-            sources = {}
-            for struct, settings in wlan.structs().items():
-                sources |= _sources(struct, settings)
-            structs = {
-                "medium": medium,
-                "interface": interface,
-                "radio": interface.radio,
-                "antenna": interface.radio.antenna,
-                "mac": interface.mac,
-                "csma": interface.csma,
-            }
-            lines.add(sources, _chosen(structs, {*of_network, *sources}), name)
-
-
-def _sources(struct: str, settings: Mapping[str, Setting]) -> dict[str, Source]:
-    return {f"{struct}.{name}": setting.source for name, setting in settings.items()}
-
-
-def _chosen(structs: Mapping[str, object], written: Container[str]) -> Chosen:
-    def chosen(target: str) -> str | None:
-        struct, _, field_name = target.partition(".")
-        name = str(getattr(structs[struct], field_name))
-        return None if not name and target in written else name
-
-    return chosen
+    assert scenario.resolution is not None
+    for row, target, node, chosen in Models(scenario.resolution, SettingReader(scenario.seed)).rows():
+        if not row.line.is_default:
+            group, bracket, _ = node.partition("[")
+            lines.add(target, row.line.entry.source, chosen, f"{group}[*]" if bracket else node)
 
 
 def _ground(scenario: Scenario, medium: "MediumConfig") -> Iterator[Finding]:
@@ -193,10 +137,11 @@ def _ground(scenario: Scenario, medium: "MediumConfig") -> Iterator[Finding]:
     if hint := ground_hint(medium, scenario.nodes):
         yield Finding(path_loss.source, hint)
     if medium.path_loss == "TwoRayInterference" and "epsilon_r" not in scenario.medium:
+        key = KEYS_BY_TARGET["medium.epsilon_r"].written
         yield Finding(
             path_loss.source,
             f"a ground with the default permittivity of {medium.epsilon_r:g} hardly reflects; expected"
-            f" `*.{KEYS['medium.epsilon_r'].written} =` 3 for dry soil, 15 for moist soil, or 81 for the sea",
+            f" `*.{key} =` 3 for dry soil, 15 for moist soil, or 81 for the sea",
         )
 
 

@@ -18,6 +18,7 @@ from gradysim.scenario.keys import (
     OF_802154,
     WLAN_KEYS,
     at_interface,
+    index_of_interface,
 )
 from gradysim.scenario.lines import Row
 from gradysim.scenario.node_spec import STRUCTS, InterfaceSpec
@@ -47,7 +48,7 @@ class InterfaceBuilder:
         rows: list[list[Row]] = [[] for _ in range(kind.interface_count)]
         for row in kind.rows.values():
             if row.key in _KEYS:
-                rows[int(row.path[len("wlan[") :].partition("]")[0])].append(row)
+                rows[index_of_interface(row.path)].append(row)
         return tuple(self._interface(node, index, of_one) for index, of_one in enumerate(rows))
 
     def _interface(self, node: str, index: int, rows: list[Row]) -> InterfaceSpec:

@@ -6,6 +6,7 @@ the tables at the end.
 """
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from gradysim.protocol.defaults import MOST_INTERFACES, TRANSMISSION_RANGE_M
@@ -281,6 +282,11 @@ def at_interface(path: str, index: int) -> str:
     return path.replace(WLAN, f"wlan[{index}]", 1)
 
 
+def index_of_interface(path: str) -> int:
+    """Return 3 for the path of a key of wlan[3], and 0 for that of a key of no interface."""
+    return int(path[len("wlan[") : path.index("]")]) if path.startswith("wlan[") else 0
+
+
 def interface_in(key: str) -> re.Match[str] | None:
     """Return the match of one interface, or a range, in the key of a line: `wlan[1]`, `wlan[2..5]`."""
     return _INDEXED.search(key)
@@ -431,6 +437,11 @@ NETWORK_KEYS: tuple[Key, ...] = (
     *_ENGINE["wind"],
 )
 """Keys below the network."""
+
+KEYS_BY_TARGET: Mapping[str, Key] = {
+    key.target: key for key in (*OF_802154.values(), *NETWORK_KEYS, *NODE_KEYS)
+}
+"""The key of each field. Of several keys, the last one has the field's own unit."""
 
 NETWORK_MODULES = frozenset(key.path.partition(".")[0] for key in NETWORK_KEYS)
 """Names below the network that are not groups of nodes."""

@@ -110,7 +110,7 @@ _INSTEAD: dict[str, tuple[str, ...]] = {
 }
 """{end of a key: ends of other keys that set the same thing}."""
 
-_INSTEAD_WITH_POWERS = _INSTEAD | {
+INSTEAD_WITH_POWERS = _INSTEAD | {
     "transmitter.power": ("transmitter.communicationRange",),
     "transmitter.communicationRange": ("transmitter.power",),
     "communicationRange": ("transmitter.power",),
@@ -131,7 +131,7 @@ def shadowed_lines(sections: Iterable[Section], *, has_powers: bool = True) -> l
         sections: Sections that make a valid scenario.
         has_powers: Whether the radio medium knows powers. Otherwise a range is only a range.
     """
-    instead = _INSTEAD_WITH_POWERS if has_powers else _INSTEAD
+    instead = INSTEAD_WITH_POWERS if has_powers else _INSTEAD
     return [finding for section in sections for finding in _shadowed_in(section, instead)]
 
 
@@ -145,7 +145,7 @@ def _shadowed_in(section: Section, instead: Mapping[str, Sequence[str]]) -> Iter
             lines.add(entry)
         elif above.source.file == entry.source.file:
             why = "fits as well and comes first; expected the special line above the general one"
-            if above.key in (entry.key, *_instead_of(entry.key, instead)):
+            if above.key in (entry.key, *keys_instead(entry.key, instead)):
                 why = "says the same thing and comes first; expected one of them"
             place = place_beside(entry.source, above.source)
             yield Finding(entry.source, f"`{entry.key}` has no effect: {place} {why}")
@@ -168,7 +168,7 @@ class _LinesAbove:
 
     def in_force(self, entry: Entry) -> Entry | None:
         """Return the line that is in force wherever `entry` fits, if it says something else."""
-        for key in (entry.key, *_instead_of(entry.key, self._instead)):
+        for key in (entry.key, *keys_instead(entry.key, self._instead)):
             above = self._same_key.get(key) or _first_that_covers(compile_pattern(key), self._general)
             if above is None or (above.text == entry.text and (key == entry.key or _COUNT.fullmatch(key))):
                 continue
@@ -177,7 +177,7 @@ class _LinesAbove:
         return None
 
 
-def _instead_of(key: str, instead: Mapping[str, Sequence[str]]) -> list[str]:
+def keys_instead(key: str, instead: Mapping[str, Sequence[str]]) -> list[str]:
     """Return the other keys that set the same thing."""
     if match := _COUNT.fullmatch(key):
         network, initial, rest, small_initial, others = match.groups()
@@ -234,7 +234,7 @@ def unread_variables(unread: Iterable[UnreadVariables], lines: Sequence[Entry]) 
 
 def _line_above_in_force(source: Source, lines: Sequence[Entry]) -> Source | None:
     """Return the line that is in force instead, by whatever key, in any section or file."""
-    above = _LinesAbove(_INSTEAD_WITH_POWERS)
+    above = _LinesAbove(INSTEAD_WITH_POWERS)
     for line in lines:
         if line.source == source:
             found = above.in_force(line)

@@ -19,7 +19,7 @@ from gradysim.scenario.obstacles import ObstacleSpec, read_obstacles
 from gradysim.scenario.options import is_ignored, is_option
 from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.protocols import ProtocolLoader
-from gradysim.scenario.resolution import Resolution, resolve
+from gradysim.scenario.resolution import resolve
 from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
@@ -36,12 +36,10 @@ class Network(NamedTuple):
     Attributes:
         fields: Those of a Scenario, by name.
         lines_of_other_runs: Lines about nodes that this run does not have, and other runs may have.
-        resolution: Its lines in force.
     """
 
     fields: Mapping[str, Any]
     lines_of_other_runs: Sequence[Source]
-    resolution: Resolution
 
 
 class Networks:
@@ -119,7 +117,7 @@ class Networks:
         """Return the variables that no checked network has read."""
         assert self._last is not None
         return tuple(
-            UnreadVariables(line, names, line_instead(line, self._last.resolution))
+            UnreadVariables(line, names, line_instead(line, self._last.fields["resolution"]))
             for line, names in unread_variables(self._lines, variables, self._read).items()
         )
 
@@ -185,9 +183,9 @@ def read_network(
             "reference_coordinates": (latitude, longitude, altitude),
             "obstacles": (*obstacles, *chain.from_iterable(obstacle_files.values())),
             "file_hashes": hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
+            "resolution": resolution,
         },
         lines_of_other_runs,
-        resolution,
     )
 
 

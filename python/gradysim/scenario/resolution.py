@@ -98,7 +98,7 @@ _CHOICES = Schema({key.path: key for key in (*PROTOCOL_KEYS, NUM_WLAN_INTERFACES
 
 
 @cache
-def _network_schemas(obstacles: int = 0) -> Mapping[str, Schema]:
+def network_schemas(obstacles: int = 0) -> Mapping[str, Schema]:
     """Return the schema of each module of the network, by name."""
     paths = [(key.path, key) for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]
     paths += [(obstacle_path(key, index), key) for index in range(obstacles) for key in OBSTACLE_KEYS]
@@ -117,6 +117,12 @@ def node_schema(interfaces: int) -> Schema:
     return Schema(keys)
 
 
+def protocol_schema(cls: type[IProtocol]) -> Schema:
+    """Return the schema of the parameters of a protocol."""
+    paths = {f"protocol.{name}": kind for name, kind in parameters_of(cls).items()}
+    return Schema({path: Key(path, path, kind, "") for path, kind in paths.items()})
+
+
 def resolve(
     lines: Lines, groups: list[Group], settings: SettingReader, loader: ProtocolLoader, errors: ErrorCollector
 ) -> Resolution:
@@ -130,7 +136,7 @@ def resolve(
     obstacles = _obstacle_count(lines, settings, errors) if kinds else 0
     of_network = {
         f"{module}.{path}": row._replace(path=f"{module}.{path}")
-        for module, schema in _network_schemas(obstacles).items()
+        for module, schema in network_schemas(obstacles).items()
         for path, row in lines.rows(lines.names(module), schema).items()
     }
     of_absent = [
@@ -142,7 +148,7 @@ def resolve(
 def _obstacle_count(lines: Lines, settings: SettingReader, errors: ErrorCollector) -> int:
     """Return `environment.numObstacles`. `errors` takes the error of a bad number, which counts as 0."""
     module, path = NUM_OBSTACLES.path.split(".", 1)
-    row = lines.rows(lines.names(module), _network_schemas()[module]).get(path)
+    row = lines.rows(lines.names(module), network_schemas()[module]).get(path)
     if row is not None and not row.line.is_default:
         with errors.collecting():
             return int(settings.scalar(row.line.entry, NUM_OBSTACLES.kind, NUM_OBSTACLES.path))
@@ -227,11 +233,7 @@ class _NodeKinds:
         if kind is None:
             of_protocol = self._of_protocols.get(protocol.cls)
             if of_protocol is None:
-                keys = (
-                    Key(f"protocol.{parameter}", f"protocol.{parameter}", of_parameter, "")
-                    for parameter, of_parameter in parameters_of(protocol.cls).items()
-                )
-                of_protocol = self._of_protocols[protocol.cls] = Schema({key.path: key for key in keys})
+                of_protocol = self._of_protocols[protocol.cls] = protocol_schema(protocol.cls)
             rows = dict(self._lines.rows(names, node_schema(count)))
             rows |= self._lines.rows(names, of_protocol)
             kind = self._known[names, protocol, count] = NodeKind(protocol, count, rows)

@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from gradysim.notebook import html_table
 from gradysim.protocol.checked_values import checked_number
@@ -12,6 +13,7 @@ from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.obstacles import ObstacleSpec
 from gradysim.scenario.options import LONGEST_RUN_S, is_ignored, options_in_force
+from gradysim.scenario.resolution import Resolution
 from gradysim.scenario.runs import UnreadVariables, checked_seed
 from gradysim.scenario.sweep import run_variables, substitute, with_labels
 from gradysim.scenario.values import Setting
@@ -64,6 +66,7 @@ class Scenario:
         vector_record_interval_s: Least time between two rows of a vector.
         lines: The entries of the overrides and of the sections in their order, with variables.
         unread_variables: Iteration variables that no run reads; empty if not all runs were requested.
+        resolution: Which line sets which parameter. None for a scenario from another process.
     """
 
     file: Path
@@ -88,6 +91,7 @@ class Scenario:
     vector_record_interval_s: float = 0.0
     lines: tuple[Entry, ...] = field(default=(), repr=False)
     unread_variables: tuple[UnreadVariables, ...] = field(default=(), repr=False)
+    resolution: Resolution | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         """Check values that scripts may replace. Raises TypeError and ValueError, which name the field."""
@@ -100,6 +104,10 @@ class Scenario:
                 raise ValueError(
                     f"nodes: {node.name}, at place {place}, has the id {node.id}; expected 0, 1, ... in order"
                 )
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Support pickle: other processes run the scenario, and do not explain it."""
+        return vars(self) | {"resolution": None}
 
     def _repr_html_(self) -> str:
         """Return the groups of nodes as a table, for notebooks."""

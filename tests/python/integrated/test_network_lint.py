@@ -5,11 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.integrated.network_lint import Chosen, UnreadLines, lint_networks, unmet_choice
+from gradysim.integrated.network_lint import UnreadLines, lint_networks
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import Source
 from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import Finding
+from gradysim.scenario.models import Chosen, unmet_choice
 from gradysim.scenario.sections import config_names
 from python.thorough import some
 
@@ -70,7 +71,8 @@ def line(number: int, key: str = "**.key", file: str = "a.ini") -> Source:
 def unread(sources: dict[str, Source], in_force: Chosen) -> list[Finding]:
     """Return the findings for the effective lines of one node or the network."""
     lines = UnreadLines()
-    lines.add(sources, in_force, "uavs[*]")
+    for target, source in sources.items():
+        lines.add(target, source, in_force, "uavs[*]")
     return list(lines.findings())
 
 
@@ -136,7 +138,7 @@ def test_a_line_that_is_read_is_no_finding() -> None:
 def test_a_line_that_one_of_the_nodes_reads_is_no_finding(order: int) -> None:
     lines = UnreadLines()
     for in_force in [chosen(), chosen(rate_control="ArfRateControl")][::order]:
-        lines.add({"mac.rate_interval_s": line(3)}, in_force, "uavs[*]")
+        lines.add("mac.rate_interval_s", line(3), in_force, "uavs[*]")
     assert list(lines.findings()) == []
 
 
@@ -147,7 +149,7 @@ def test_a_line_with_wildcards_is_read_by_one_of_its_keys() -> None:
 def test_all_other_choices_are_named() -> None:
     lines = UnreadLines()
     for rate_control in ("MinstrelRateControl", ""):
-        lines.add({"mac.rate_interval_s": line(3)}, chosen(rate_control=rate_control), "uavs[*]")
+        lines.add("mac.rate_interval_s", line(3), chosen(rate_control=rate_control), "uavs[*]")
     (finding,) = lines.findings()
     assert finding.message.endswith('and it is "" or "MinstrelRateControl"')
 
