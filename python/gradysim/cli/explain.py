@@ -28,7 +28,7 @@ def explain_parameter(
     run: Annotated[Integer, Parameter(name=("--run", "-r", "--runs"), help="Number of the run.")] = 0,
     settings: SetOption = (),
 ) -> int:
-    """Explain the value of a parameter: the line that sets it, the lines that this hides, who reads it."""
+    """Explain the value of a parameter: the line that sets it, the lines it hides, and what reads it."""
     try:
         with contextlib.redirect_stdout(sys.stderr):  # protocols may print
             (scenario,) = check(file, config, str(run), settings)

@@ -1,4 +1,4 @@
-"""Explains a parameter of a run: its value, the line that sets it, what that hides, and who reads it."""
+"""Explains a parameter of a run: its value, the line that sets it, the lines it hides, and its readers."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

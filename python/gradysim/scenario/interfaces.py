@@ -20,12 +20,12 @@ from gradysim.scenario.keys import (
     at_interface,
     index_of_interface,
 )
-from gradysim.scenario.lines import Row
+from gradysim.scenario.lines import Row, read_struct
 from gradysim.scenario.node_spec import STRUCTS, InterfaceSpec
 from gradysim.scenario.parameter_types import BAND, CHANNELS
 from gradysim.scenario.resolution import NodeKind, Resolution
 from gradysim.scenario.schema import Key
-from gradysim.scenario.values import SettingReader, read_struct
+from gradysim.scenario.values import SettingReader
 
 Rows = Mapping[Key, Row]
 """Of one interface."""

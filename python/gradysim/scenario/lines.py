@@ -15,6 +15,7 @@ from gradysim.scenario.ini import Entry
 from gradysim.scenario.options import is_ignored, is_option, network_name
 from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.schema import Key
+from gradysim.scenario.values import Setting, SettingReader
 
 _ANY_NAME = "*"
 
@@ -263,3 +264,29 @@ def _compiled(order: int, entry: Entry) -> Line:
     parts = pattern.split()
     differs = differs_between_parameters(entry.text)
     return Line(order, entry, pattern, parts if parts and len(parts) > 1 else None, differs)
+
+
+def rows_in_force(struct: str, rows: Iterable[Row]) -> dict[str, Row]:
+    """Return the row of each field of a struct. Of two keys for one field, the first line is in force."""
+    first: dict[str, Row] = {}
+    for row in rows:
+        if row.key.struct == struct:
+            other = first.get(row.key.field)
+            if other is None or row.line.order < other.line.order:
+                first[row.key.field] = row
+    return first
+
+
+def read_struct(
+    struct: str, rows: Iterable[Row], settings: SettingReader, errors: ErrorCollector, prefix: str = ""
+) -> dict[str, Setting]:
+    """Return the fields of one struct that lines set. `errors` takes the errors of values.
+
+    `prefix` is what precedes the paths of the rows in names of parameters, `uavs[3].`.
+    """
+    read: dict[str, Setting] = {}
+    for field, row in rows_in_force(struct, rows).items():
+        if not row.line.is_default:
+            with errors.collecting():
+                read[field] = settings.setting(row.line.entry, row.key.kind, prefix + row.path)
+    return read

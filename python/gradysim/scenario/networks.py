@@ -12,7 +12,7 @@ from gradysim.scenario.geojson import read_obstacle_files
 from gradysim.scenario.groups import Group, find_groups
 from gradysim.scenario.ini import Entry
 from gradysim.scenario.keys import OBSTACLE_FILE
-from gradysim.scenario.lines import Lines
+from gradysim.scenario.lines import Lines, read_struct
 from gradysim.scenario.native_protocols import file_of_native
 from gradysim.scenario.nodes import build_nodes
 from gradysim.scenario.obstacles import ObstacleSpec, read_obstacles
@@ -24,7 +24,7 @@ from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, un
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
 from gradysim.scenario.unknown_keys import NoSuchNodeError, check_names, check_parameters
-from gradysim.scenario.values import Setting, SettingReader, read_scalar, read_struct
+from gradysim.scenario.values import Setting, SettingReader, read_scalar
 
 Key = tuple[int, ...]
 """Places of the values of a run's network."""

@@ -12,12 +12,12 @@ from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.groups import Group
 from gradysim.scenario.interfaces import InterfaceBuilder
 from gradysim.scenario.keys import MASSLESS, PROTOCOL_KEYS, QUADCOPTER, STATIC_GRID, STATIONARY
-from gradysim.scenario.lines import Line, Row
+from gradysim.scenario.lines import Line, Row, read_struct, rows_in_force
 from gradysim.scenario.node_spec import AutopilotSpec, InterfaceSpec, NodeSpec, read_autopilot
 from gradysim.scenario.paths import path_of
 from gradysim.scenario.placement import AXES, Grid, Placement, read_grid
 from gradysim.scenario.resolution import NodeKind, Resolution
-from gradysim.scenario.values import Setting, SettingReader, read_struct, rows_in_force
+from gradysim.scenario.values import Setting, SettingReader
 
 _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 

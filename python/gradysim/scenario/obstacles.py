@@ -9,9 +9,10 @@ from typing import Any
 from gradysim.protocol.position import LARGEST_COORDINATE_M, rotate_position_2d
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.keys import DEFAULT_MATERIAL, NUM_OBSTACLES, OBSTACLE_KEYS, obstacle_path
+from gradysim.scenario.lines import read_struct
 from gradysim.scenario.resolution import Resolution
 from gradysim.scenario.schema import HAS_TO_BE_GIVEN
-from gradysim.scenario.values import Setting, SettingReader, read_struct
+from gradysim.scenario.values import Setting, SettingReader
 
 Corner = tuple[float, float]
 """x and y in meters."""

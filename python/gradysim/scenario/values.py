@@ -1,12 +1,11 @@
-"""Reads the values of lines: of a parameter, and of the fields of a struct."""
+"""Reads the values of lines."""
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from gradysim.scenario.distributions import distribution_in
-from gradysim.scenario.errors import BadValue, ErrorCollector, Source, is_fully_qualified
+from gradysim.scenario.errors import BadValue, Source, is_fully_qualified
 from gradysim.scenario.expressions import (
     ParameterContext,
     differs_between_parameters,
@@ -15,7 +14,6 @@ from gradysim.scenario.expressions import (
 )
 from gradysim.scenario.functions import Value, text_of
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.lines import Row
 from gradysim.scenario.parameter_types import ParameterType, Scalar
 from gradysim.scenario.regular_files import check_regular
 
@@ -31,32 +29,6 @@ class Setting:
 
     value: Scalar
     source: Source
-
-
-def rows_in_force(struct: str, rows: Iterable[Row]) -> dict[str, Row]:
-    """Return the row of each field of a struct. Of two keys for one field, the first line is in force."""
-    first: dict[str, Row] = {}
-    for row in rows:
-        if row.key.struct == struct:
-            other = first.get(row.key.field)
-            if other is None or row.line.order < other.line.order:
-                first[row.key.field] = row
-    return first
-
-
-def read_struct(
-    struct: str, rows: Iterable[Row], settings: "SettingReader", errors: ErrorCollector, prefix: str = ""
-) -> dict[str, Setting]:
-    """Return the fields of one struct that lines set. `errors` takes the errors of values.
-
-    `prefix` is what precedes the paths of the rows in names of parameters, `uavs[3].`.
-    """
-    read: dict[str, Setting] = {}
-    for field, row in rows_in_force(struct, rows).items():
-        if not row.line.is_default:
-            with errors.collecting():
-                read[field] = settings.setting(row.line.entry, row.key.kind, prefix + row.path)
-    return read
 
 
 class SettingReader:

@@ -6,7 +6,7 @@ import pytest
 from gradysim.scenario.errors import ConfigError, ErrorCollector, Source
 from gradysim.scenario.expressions import ParameterContext
 from gradysim.scenario.ini import Entry
-from gradysim.scenario.lines import Lines, Schema
+from gradysim.scenario.lines import Lines, Schema, read_struct
 from gradysim.scenario.parameter_types import (
     choice,
     coordinate,
@@ -18,7 +18,7 @@ from gradysim.scenario.parameter_types import (
     text,
 )
 from gradysim.scenario.schema import Key
-from gradysim.scenario.values import Setting, SettingReader, is_right_for_all_seeds, read_scalar, read_struct
+from gradysim.scenario.values import Setting, SettingReader, is_right_for_all_seeds, read_scalar
 
 SPEED = quantity("mps", at_least=0)
 MODE = choice("b", "a")
