@@ -107,6 +107,8 @@ The file of a function in `gradysim.cli` is imported only when the command is ca
 HELP = {
     "new": "Make a directory with a protocol, scenarios and a test, or a copy of an example.",
     "check": "Report the errors and warnings that show before the first run, sorted by line.",
+    "explain": "Explain the value of a parameter: the line that sets it, the lines it hides, and what reads"
+    " it.",
     "docs": "Show a page of the documentation, or list the pages that have a word in their title or text.",
     "keys": "List the keys of .ini files: unit, default, meaning.",
     "calibrate": "Find the transmission power for a wanted range, or the path loss for measured powers or"
