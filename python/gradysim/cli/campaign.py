@@ -3,24 +3,25 @@
 import json
 import sys
 from collections.abc import Iterator
+from concurrent.futures import Executor
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from gradysim.cli.fork_executor import ForkExecutor
+from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import CampaignOptions
 from gradysim.cli.study import drawn_text
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from gradysim.ladder.campaign import Campaign
-    from gradysim.plots.numbers import Numbers
+from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.kept_runs import KeptRuns
+from gradysim.plots import save_numbers
+from gradysim.plots.numbers import Numbers
+from gradysim.protocol.plain_value import plain_value
+from gradysim.scenario.errors import ArgumentNames, ConfigError
 
 
 @contextmanager
-def campaign_of(
-    file: Path, options: CampaignOptions, run_count: int
-) -> "Iterator[tuple[Campaign, Executor]]":
+def campaign_of(file: Path, options: CampaignOptions, run_count: int) -> Iterator[tuple[Campaign, Executor]]:
     """Yield the campaign of a command line, and an executor with a process for each run.
 
     The first Ctrl-C, SIGTERM or SIGHUP kills all processes, and says what became of the runs that have ended.
@@ -30,12 +31,6 @@ def campaign_of(
         OSError: The runs cannot be kept.
         SystemExit: After a signal, with the exit code of the command.
     """
-    from gradysim.cli.fork_executor import ForkExecutor
-    from gradysim.cli.interrupt import StopOnInterrupt
-    from gradysim.ladder.campaign import Campaign
-    from gradysim.ladder.kept_runs import KeptRuns
-    from gradysim.scenario.errors import ArgumentNames, ConfigError
-
     if options.resume and options.result_dir is None:
         raise ConfigError("--resume: expected --result-dir DIR, too, where the runs are kept")
     keeping = (
@@ -72,16 +67,12 @@ def campaign_of(
 
 def print_json(plain: dict[str, Any]) -> None:
     """Print a JSON object on one line."""
-    from gradysim.protocol.plain_value import plain_value
-
     print(json.dumps(plain_value(plain)))
 
 
 def save(
-    path: Path, numbers: "Numbers", file: Path, options: CampaignOptions, *, log: tuple[str, ...] = ()
+    path: Path, numbers: Numbers, file: Path, options: CampaignOptions, *, log: tuple[str, ...] = ()
 ) -> None:
     """Draw a figure, and say on standard error where it is. Raises what `save_numbers` raises."""
-    from gradysim.plots import save_numbers
-
     origin = {"file": str(file), "config": options.config, "settings": options.settings, "seed": options.seed}
     print(drawn_text(save_numbers(path, numbers, origin, log=log)), file=sys.stderr)

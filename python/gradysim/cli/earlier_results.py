@@ -4,7 +4,6 @@ import sys
 from collections.abc import Iterator, Sequence
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import (
@@ -14,13 +13,22 @@ from gradysim.cli.output import (
     ids_of_fates,
     nodes_of_vectors,
 )
+from gradysim.results.files import (
+    files_changed_since,
+    has_another_number,
+    has_other_settings,
+    has_written,
+    run_file,
+)
+from gradysim.results.omnetpp_reader import recorded_modules
+from gradysim.results.result_dir import result_names
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.load import Study
+from gradysim.scenario.runs import text_of_files, text_of_runs
+from gradysim.scenario.scenario import Scenario
 
-if TYPE_CHECKING:
-    from gradysim.scenario.load import Study
-    from gradysim.scenario.scenario import Scenario
 
-
-def runs_to_do(study: "Study", options: RunOptions) -> Sequence[int]:
+def runs_to_do(study: Study, options: RunOptions) -> Sequence[int]:
     """Return the positions in `study` of the runs to execute: all, or with --resume those that lack a file.
 
     Prints which runs are left out, outdated, or to be replaced. Raises ConfigError for results of other
@@ -35,15 +43,11 @@ def runs_to_do(study: "Study", options: RunOptions) -> Sequence[int]:
     return range(len(study))
 
 
-def _check_others(study: "Study", others: Sequence[int], options: RunOptions) -> None:
+def _check_others(study: Study, others: Sequence[int], options: RunOptions) -> None:
     """Raise ConfigError for results of other settings, or print that they will be replaced.
 
     `others` are the positions of their runs.
     """
-    from gradysim.results.files import has_another_number
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.runs import text_of_runs
-
     if not others:
         return
     numbers = [study.numbers[place] for place in others]
@@ -66,22 +70,17 @@ def _check_others(study: "Study", others: Sequence[int], options: RunOptions) ->
     )
 
 
-def is_of_other_settings(scenario: "Scenario", options: RunOptions) -> bool:
+def is_of_other_settings(scenario: Scenario, options: RunOptions) -> bool:
     """Return whether a run would replace a result of other settings or another seed without --replace."""
     return options.is_writer and not options.replace and _has_other_settings(scenario, options)
 
 
-def _has_other_settings(scenario: "Scenario", options: RunOptions) -> bool:
-    from gradysim.results.files import has_other_settings
-
+def _has_other_settings(scenario: Scenario, options: RunOptions) -> bool:
     return has_other_settings(scenario, options.mode, options.directory)
 
 
-def _left_to_do(study: "Study", options: RunOptions) -> list[int]:
+def _left_to_do(study: Study, options: RunOptions) -> list[int]:
     """Return the positions of runs that lack a requested file, for --resume."""
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.runs import text_of_files, text_of_runs
-
     result_dir = options.result_dir
     if result_dir is None:
         raise ConfigError(
@@ -126,7 +125,7 @@ class State(Enum):
     WITHOUT_OUTPUT = "without requested files"
 
 
-def states_of(study: "Study", options: RunOptions) -> Iterator[tuple[int, State, tuple[str, ...]]]:
+def states_of(study: Study, options: RunOptions) -> Iterator[tuple[int, State, tuple[str, ...]]]:
     """Yield the number of each run, its state, and the files that have changed since, as --resume does."""
     with_result = set(_with_result(study, options))
     for place, number in enumerate(study.numbers):
@@ -136,10 +135,8 @@ def states_of(study: "Study", options: RunOptions) -> Iterator[tuple[int, State,
             yield number, *_state_of(study[place], options)
 
 
-def _state_of(scenario: "Scenario", options: RunOptions) -> tuple[State, tuple[str, ...]]:
+def _state_of(scenario: Scenario, options: RunOptions) -> tuple[State, tuple[str, ...]]:
     """Return the state of a run that has a result, and the files that have changed since."""
-    from gradysim.results.files import files_changed_since
-
     if is_done(scenario, options):
         return State.DONE, ()
     changed = files_changed_since(scenario, options.mode, options.directory, ids_of_fates(scenario, options))
@@ -152,11 +149,8 @@ def _state_of(scenario: "Scenario", options: RunOptions) -> tuple[State, tuple[s
     return State.INCOMPLETE, ()
 
 
-def _with_result(study: "Study", options: RunOptions) -> list[int]:
+def _with_result(study: Study, options: RunOptions) -> list[int]:
     """Return the positions in `study` of runs that have a result in the directory or in its packs."""
-    from gradysim.results.files import run_file
-    from gradysim.results.result_dir import result_names
-
     names = result_names(options.directory)
     return [
         place
@@ -165,18 +159,14 @@ def _with_result(study: "Study", options: RunOptions) -> list[int]:
     ]
 
 
-def is_done(scenario: "Scenario", options: RunOptions) -> bool:
+def is_done(scenario: Scenario, options: RunOptions) -> bool:
     """Return whether the directory has an up-to-date result of the run, with all requested files."""
-    from gradysim.results.files import files_changed_since
-
     changed = files_changed_since(scenario, options.mode, options.directory, ids_of_fates(scenario, options))
     return changed == () and _has_left_its_files(scenario, options)
 
 
-def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
+def _has_left_its_files(scenario: Scenario, options: RunOptions) -> bool:
     """Return whether all requested files other than the result are unchanged, with the current labels."""
-    from gradysim.results.files import has_written
-
     files = files_for_omnetpp(scenario, options)
     return (
         has_written(scenario, options.mode, options.directory, files_beside_result(scenario, options))
@@ -185,9 +175,7 @@ def _has_left_its_files(scenario: "Scenario", options: RunOptions) -> bool:
     )
 
 
-def _has_vectors(files: Sequence[Path], scenario: "Scenario", options: RunOptions) -> bool:
+def _has_vectors(files: Sequence[Path], scenario: Scenario, options: RunOptions) -> bool:
     """Return whether the last file has vectors of all requested nodes."""
-    from gradysim.results.omnetpp_reader import recorded_modules
-
     expected = {f"{scenario.network}.{node.name}.mobility" for node in nodes_of_vectors(scenario, options)}
     return not expected or expected <= recorded_modules(files[-1])

@@ -2,50 +2,56 @@
 
 import contextlib
 import errno
+import logging
 import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gradysim.cli.options import Mode, RunOptions
+from gradysim.integrated.capture import capture_files, files_of_interfaces
+from gradysim.replay.sink import ReplaySink, Sinks
+from gradysim.results.durable import LONGEST_PID, check_replaceable, finish, make_directory, unfinished_file
+from gradysim.results.files import (
+    has_complete_result,
+    outputs_of_other_settings,
+    run_file,
+    write_run_file,
+)
+from gradysim.results.omnetpp import (
+    identity_of,
+    lasting_attributes,
+    storable,
+    vectors_of,
+    write_scalar_file,
+    write_vector_file,
+)
+from gradysim.results.omnetpp_reader import run_attributes
+from gradysim.results.result import RunResult
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.scenario import Scenario, nodes_named
 
-if TYPE_CHECKING:
-    from gradysim.replay.sink import ReplaySink
-    from gradysim.results.result import RunResult
-    from gradysim.scenario.node_spec import NodeSpec
-    from gradysim.scenario.scenario import Scenario
 
-
-def ids_of_fates(scenario: "Scenario", options: RunOptions) -> list[int]:
+def ids_of_fates(scenario: Scenario, options: RunOptions) -> list[int]:
     """Return the ids of the nodes that --fates-at names."""
-    from gradysim.scenario.scenario import nodes_named
-
     return [node.id for node in nodes_named(scenario, options.fates_at)]
 
 
-def nodes_of_vectors(scenario: "Scenario", options: RunOptions) -> "list[NodeSpec]":
+def nodes_of_vectors(scenario: Scenario, options: RunOptions) -> list[NodeSpec]:
     """Return the nodes that --vectors names."""
-    from gradysim.scenario.scenario import nodes_named
-
     return nodes_named(scenario, options.vectors)
 
 
-def replay_file(scenario: "Scenario", options: RunOptions) -> Path:
+def replay_file(scenario: Scenario, options: RunOptions) -> Path:
     """Return the page of a run's replay."""
-    from gradysim.results.files import run_file
-
     return run_file(options.directory, scenario.config, scenario.run_number, options.mode, ".html")
 
 
-def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None":
+def replay_sink(scenario: Scenario, options: RunOptions) -> ReplaySink | None:
     """Return the sink for the replay of a run, and for its trace; None if neither is requested.
 
     The replay gets its name when the run has ended. Raises ConfigError if it cannot be written.
     """
-    from gradysim.results.durable import unfinished_file
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.scenario import nodes_named
-
     sinks: list[ReplaySink] = []
     if options.replay:
         from gradysim.replay.sink import ReplayWriter
@@ -63,83 +69,69 @@ def replay_sink(scenario: "Scenario", options: RunOptions) -> "ReplaySink | None
         sinks.append(Trace(node.id for node in nodes_named(scenario, options.trace)))
     if len(sinks) < 2:
         return sinks[0] if sinks else None
-    from gradysim.replay.sink import Sinks
 
     return Sinks(sinks)
 
 
 def log_level(options: RunOptions) -> int:
     """Return the lowest level of printed log lines, as a number of `logging`."""
-    import logging
-
     name = options.log_level or ("warning" if options.quiet else "info")
     return logging.getLevelNamesMapping()[name.upper()]
 
 
-def captures(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
+def captures(scenario: Scenario, options: RunOptions) -> dict[int, Path]:
     """Return {id of a node: its capture file} of one run."""
-    from gradysim.integrated.capture import capture_files
-
     return capture_files(scenario, options.pcap, options.directory)
 
 
-def captures_under_way(scenario: "Scenario", options: RunOptions) -> dict[int, Path]:
+def captures_under_way(scenario: Scenario, options: RunOptions) -> dict[int, Path]:
     """Return {id of a node: the file that its radio writes}. It gets its name when the run has ended."""
-    from gradysim.results.durable import unfinished_file
-
     return {node_id: unfinished_file(file) for node_id, file in captures(scenario, options).items()}
 
 
-def capture_files_of(scenario: "Scenario", options: RunOptions) -> list[Path]:
+def capture_files_of(scenario: Scenario, options: RunOptions) -> list[Path]:
     """Return the capture files of all radios of the nodes that --pcap names."""
     if not options.pcap:
         return []
-    from gradysim.integrated.capture import files_of_interfaces
 
     return list(files_of_interfaces(scenario, captures(scenario, options)).values())
 
 
-def omnetpp_file(scenario: "Scenario", options: RunOptions, suffix: str) -> Path:
+def omnetpp_file(scenario: Scenario, options: RunOptions, suffix: str) -> Path:
     """Return the file of a run's scalars, `.sca`, or vectors, `.vec`."""
-    from gradysim.results.files import run_file
-
     return run_file(options.directory, scenario.config, scenario.run_number, options.mode, suffix)
 
 
-def files_beside_result(scenario: "Scenario", options: RunOptions) -> list[Path]:
+def files_beside_result(scenario: Scenario, options: RunOptions) -> list[Path]:
     """Return all requested files of a run, except the result."""
     return [*files_of_the_run_itself(scenario, options), *files_for_omnetpp(scenario, options)]
 
 
-def files_of_the_run_itself(scenario: "Scenario", options: RunOptions) -> list[Path]:
+def files_of_the_run_itself(scenario: Scenario, options: RunOptions) -> list[Path]:
     """Return the requested files that are written during the run."""
     replays = [replay_file(scenario, options)] if options.replay else []
     return [*capture_files_of(scenario, options), *replays]
 
 
-def files_under_way(scenario: "Scenario", options: RunOptions) -> list[Path]:
+def files_under_way(scenario: Scenario, options: RunOptions) -> list[Path]:
     """Return the names that these files have during the run."""
-    from gradysim.results.durable import unfinished_file
-
     return [unfinished_file(file) for file in files_of_the_run_itself(scenario, options)]
 
 
-def remove_files_under_way(scenario: "Scenario", options: RunOptions) -> None:
+def remove_files_under_way(scenario: Scenario, options: RunOptions) -> None:
     """Remove what a run has written under these names, such as after a failure."""
     for file in files_under_way(scenario, options):
         with contextlib.suppress(OSError):
             file.unlink()
 
 
-def check_outputs(scenario: "Scenario", options: RunOptions) -> None:
+def check_outputs(scenario: Scenario, options: RunOptions) -> None:
     """Raise OSError if the place of an output of the run has something else than a regular file."""
-    from gradysim.results.durable import check_replaceable
-
     for file in _all_files(scenario, options):
         check_replaceable(file)
 
 
-def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
+def files_for_omnetpp(scenario: Scenario, options: RunOptions) -> list[Path]:
     """Return the files of scalars and of vectors, if requested, in this order."""
     suffixes = [*([".sca"] if options.scalars else []), *([".vec"] if options.vectors else [])]
     return [omnetpp_file(scenario, options, suffix) for suffix in suffixes]
@@ -147,9 +139,6 @@ def files_for_omnetpp(scenario: "Scenario", options: RunOptions) -> list[Path]:
 
 def make_result_dir(directory: Path) -> None:
     """Create the directory of --result-dir. Raises ConfigError, which names the option."""
-    from gradysim.results.durable import make_directory
-    from gradysim.scenario.errors import ConfigError
-
     try:
         make_directory(directory)
     except OSError as error:
@@ -161,8 +150,6 @@ def make_result_dir(directory: Path) -> None:
 
 def check_may_be_written_to(directory: Path) -> None:
     """Raise ConfigError, which names the option, if the directory is not writable."""
-    from gradysim.scenario.errors import ConfigError
-
     if not os.access(directory, os.W_OK | os.X_OK):
         raise ConfigError(f"--result-dir {directory}: it is not writable; expected another directory")
 
@@ -180,11 +167,8 @@ def check_sqlite(options: RunOptions) -> None:
         raise ConfigError(f"{option}: {error}; expected a Python with the module sqlite3") from error
 
 
-def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> None:
+def check_file_names(scenarios: Sequence[Scenario], options: RunOptions) -> None:
     """Raise ConfigError if the name of a file is too long for the directory, before the first run."""
-    from gradysim.results.durable import LONGEST_PID, unfinished_file
-    from gradysim.scenario.errors import ConfigError
-
     last = scenarios[-1]  # it has the longest number
     folders = (options.directory, *options.directory.parents)
     there = next((folder for folder in folders if folder.is_dir()), Path())  # captures create their own
@@ -199,17 +183,15 @@ def check_file_names(scenarios: "Sequence[Scenario]", options: RunOptions) -> No
                 ) from error
 
 
-def _all_files(scenario: "Scenario", options: RunOptions) -> Iterator[Path]:
+def _all_files(scenario: Scenario, options: RunOptions) -> Iterator[Path]:
     """Yield the files that a run will write."""
-    from gradysim.results.files import run_file
-
     yield from files_beside_result(scenario, options)
     if options.result_dir is not None:
         yield run_file(options.directory, scenario.config, scenario.run_number, options.mode)
 
 
 def write_files(
-    scenario: "Scenario", result: "RunResult", lacks_output: bool, options: RunOptions
+    scenario: Scenario, result: RunResult, lacks_output: bool, options: RunOptions
 ) -> Iterator[str]:
     """Write the requested files of a run, and yield a line about each file.
 
@@ -220,14 +202,6 @@ def write_files(
     The result comes first, in case the disk has no room for the others. When they are complete, it is written
     again and names them.
     """
-    from gradysim.results.durable import finish
-    from gradysim.results.files import (
-        has_complete_result,
-        outputs_of_other_settings,
-        run_file,
-        write_run_file,
-    )
-
     if not options.is_writer:
         return
     mode, directory = options.mode, options.directory
@@ -261,7 +235,7 @@ _OF_THE_RUN_ITSELF = (".pcap", ".html")
 """Suffixes of files that are written during the run."""
 
 
-def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterator[str]:
+def _remove_of_earlier_runs(scenario: Scenario, options: RunOptions) -> Iterator[str]:
     """Remove scalars and vectors of other runs that a reader would take for files of this run.
 
     Files with the same settings stay until they are replaced.
@@ -274,11 +248,8 @@ def _remove_of_earlier_runs(scenario: "Scenario", options: RunOptions) -> Iterat
                 yield f"removed {path}, of an earlier run"
 
 
-def have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool:
+def have_labels(files: Sequence[Path], scenario: Scenario, mode: Mode) -> bool:
     """Return whether files for OMNeT++ are from one run, with its current attributes."""
-    from gradysim.results.omnetpp import lasting_attributes, storable
-    from gradysim.results.omnetpp_reader import run_attributes
-
     expected = {name: storable(text) for name, text in lasting_attributes(scenario, mode).items()}
     found = [run_attributes(file) for file in files]
     return all(
@@ -287,9 +258,7 @@ def have_labels(files: Sequence[Path], scenario: "Scenario", mode: Mode) -> bool
     )
 
 
-def _write_for_omnetpp(scenario: "Scenario", result: "RunResult", options: RunOptions) -> Iterator[str]:
-    from gradysim.results.omnetpp import identity_of, vectors_of, write_scalar_file, write_vector_file
-
+def _write_for_omnetpp(scenario: Scenario, result: RunResult, options: RunOptions) -> Iterator[str]:
     identity = identity_of(result, scenario, options.directory)
     if options.scalars:
         path = omnetpp_file(scenario, options, ".sca")

@@ -5,22 +5,20 @@ import shlex
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from gradysim.results.run_table import Runs
+from gradysim.encapsulator.run_context import gc_paused
+from gradysim.results.means import of_different_files, of_different_settings, repeated
+from gradysim.results.quantity import name_filter
+from gradysim.results.result_dir import has_files_for_omnetpp_alone
+from gradysim.results.run_table import Runs, runs
+from gradysim.scenario.errors import ConfigError, nearest
 
 
-def read_study(directory: Path) -> "Runs":
+def read_study(directory: Path) -> Runs:
     """Return the runs in a directory or in a pack, at least one.
 
     Raises ConfigError and OSError.
     """
-    from gradysim.encapsulator.run_context import gc_paused
-    from gradysim.results.result_dir import has_files_for_omnetpp_alone
-    from gradysim.results.run_table import runs
-    from gradysim.scenario.errors import ConfigError
-
     if not directory.is_file():
         check_directory(directory)
     with gc_paused():
@@ -42,8 +40,6 @@ def drawn_text(files: Iterable[Path]) -> str:
 
 def conditions(where: Iterable[str]) -> dict[str, list[str]]:
     """Return {variable: values} of `--where`. Raises ConfigError."""
-    from gradysim.scenario.errors import ConfigError
-
     wanted: dict[str, list[str]] = {}
     for condition in where:
         variable, equals, value = condition.partition("=")
@@ -60,9 +56,6 @@ def check_quantities(
 
     `known` are all quantities of the runs in the directory.
     """
-    from gradysim.results.quantity import name_filter
-    from gradysim.scenario.errors import ConfigError, nearest
-
     names = list(found)
     for quantity in wanted:
         if not any(map(name_filter(quantity), names)):
@@ -75,17 +68,13 @@ def check_quantities(
 
 def check_directory(directory: Path) -> None:
     """Raise ConfigError if there is no such directory."""
-    from gradysim.scenario.errors import ConfigError
-
     if not directory.is_dir():
         reason = "it is not a directory" if directory.exists() else "there is no such directory"
         raise ConfigError(f"{directory}: {reason}; expected that of `gradysim run FILE --result-dir DIR`")
 
 
-def warn_of_mixed_runs(directory: Path, results: "Runs") -> None:
+def warn_of_mixed_runs(directory: Path, results: Runs) -> None:
     """Warn of runs that should not be averaged: of other settings or files, and the same run twice."""
-    from gradysim.results.means import of_different_files, of_different_settings, repeated
-
     if (pair := of_different_settings(results)) is not None:
         print(
             f"{directory}: warning: {pair[0]} and {pair[1]} have different settings (`settings_hash`), and"

@@ -5,14 +5,14 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING
 
 from gradysim.cli.options import RunOptions
-
-if TYPE_CHECKING:
-    from gradysim.results.confidence_interval import Estimate
-    from gradysim.results.run_summary import RunSummary
-    from gradysim.scenario.load import Study
+from gradysim.results.confidence_interval import Estimate, estimate
+from gradysim.results.files import read_run_file, run_file
+from gradysim.results.run_summary import RunSummary
+from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.scenario.load import Study
+from gradysim.scenario.sweep import text_of_iterations
 
 BATCH = 5
 """Number of repetitions after which it is decided whether they are enough."""
@@ -36,8 +36,6 @@ class Until:
 
 def checked_until(options: RunOptions) -> Until | None:
     """Return the condition of `--until`, if there is one. Raises ConfigError."""
-    from gradysim.scenario.errors import ConfigError
-
     if options.until is None:
         return None
     match = _CONDITION.fullmatch(options.until)
@@ -52,7 +50,7 @@ def checked_until(options: RunOptions) -> Until | None:
 
 
 def rounds_of(
-    study: "Study", left: Sequence[int], until: Until | None, options: RunOptions
+    study: Study, left: Sequence[int], until: Until | None, options: RunOptions
 ) -> Iterator[Sequence[int]]:
     """Yield the positions in `study` of the runs to do next, those in `left`. One round without a condition.
 
@@ -61,8 +59,6 @@ def rounds_of(
     the next one. After the last round, prints what was reached. Raises ConfigError for an unknown quantity
     and for a single repetition, and OSError.
     """
-    from gradysim.scenario.errors import ConfigError
-
     if until is None:
         yield left
         return
@@ -90,7 +86,7 @@ def _next(done: int, places: Sequence[int]) -> range:
 class _Numbers:
     """The quantity of a condition in the results of runs. Each result is read once."""
 
-    def __init__(self, study: "Study", until: Until, options: RunOptions) -> None:
+    def __init__(self, study: Study, until: Until, options: RunOptions) -> None:
         self._study = study
         self._until = until
         self._options = options
@@ -112,16 +108,10 @@ class _Numbers:
 
     def percent_of(self, places: Sequence[int]) -> float:
         """Return the width of the interval of runs that were read, as `percent_of_mean` does."""
-        from gradysim.results.confidence_interval import estimate
-
         numbers = [number for place in places if (number := self._numbers[place]) is not None]
         return percent_of_mean(estimate(numbers, binary=self._binary)) if numbers else inf
 
-    def _summary(self, place: int) -> "RunSummary":
-        from gradysim.results.files import read_run_file, run_file
-        from gradysim.results.run_summary import RunSummary
-        from gradysim.scenario.errors import ConfigError, nearest
-
+    def _summary(self, place: int) -> RunSummary:
         study, options = self._study, self._options
         file = run_file(options.directory, study.config, study.numbers[place], options.mode)
         summary = RunSummary.of(read_run_file(file), file)
@@ -134,7 +124,7 @@ class _Numbers:
         return summary
 
 
-def percent_of_mean(found: "Estimate") -> float:
+def percent_of_mean(found: Estimate) -> float:
     """Return half the width of an interval in percent of the mean; infinite for a single number.
 
     For a mean of 0, the upper end is in percent of 1: the probability of an event that no run had.
@@ -147,11 +137,9 @@ def percent_of_mean(found: "Estimate") -> float:
 
 
 def _tell(
-    study: "Study", until: Until, options: RunOptions, numbers: _Numbers, unmet: Sequence[Sequence[int]]
+    study: Study, until: Until, options: RunOptions, numbers: _Numbers, unmet: Sequence[Sequence[int]]
 ) -> None:
     """Print how many runs meet the condition, or to standard error by how much they do not."""
-    from gradysim.scenario.sweep import text_of_iterations
-
     if unmet:
         wide = []
         for places in unmet:
