@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from math import inf, isnan
 from time import perf_counter, process_time
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Protocol, Self
 
 from gradysim.encapsulator.run_context import GlobalRandom, gc_paused
-from gradysim.execution.run_log import RecordEvent, RunLog
+from gradysim.execution.run_log import RunLog
 from gradysim.replay.chunk import RawChunk
 from gradysim.replay.sink import OutputError, ReplaySink
 from gradysim.results.recorder import recorders_of
@@ -61,6 +61,19 @@ class RunNode:
         return (x, y, z)
 
 
+class Recorder(Protocol):
+    """Records a run for a replay."""
+
+    def event(self, node: int, kind: int, text: str, /) -> None:
+        """Record an event at a node; its kind is that of `EVENT_KINDS` by number."""
+
+    def chunks(self, *, cut: bool, last: bool) -> Iterable[RawChunk]:
+        """Return the chunks of the replay that are complete.
+
+        With `cut`, the one that is growing ends now; with `last`, the run has ended.
+        """
+
+
 class ScenarioRun(ABC):
     """A scenario in one of the modes: built by the constructor, then run at once or step by step.
 
@@ -95,6 +108,7 @@ class ScenarioRun(ABC):
         self._lint = RunLint(scenario)
         self._recorders = recorders_of(vectors_of, len(scenario.nodes), scenario.vector_record_interval_s)
         self._replay = replay
+        self._recorder: Recorder | None = None
         self._log_level = log_level
         self._lacks_output = False
 
@@ -210,8 +224,8 @@ class ScenarioRun(ABC):
         """Run the next events, and record them if the run is recorded; return if `until_s` is reached."""
         assert self._advance is not None
         is_reached = self._advance(until_s, max_events)
-        if self._replay is not None:
-            for chunk in self._recorded_chunks(cut=self._replay.wants_chunk()):
+        if self._replay is not None and self._recorder is not None:
+            for chunk in self._recorder.chunks(cut=self._replay.wants_chunk(), last=False):
                 self._replay.add(chunk)
         return is_reached
 
@@ -243,9 +257,9 @@ class ScenarioRun(ABC):
 
     def _end_replay(self) -> None:
         replay, self._replay = self._replay, None
-        if replay is None:
+        if replay is None or self._recorder is None:
             return
-        for chunk in self._recorded_chunks(last=True):
+        for chunk in self._recorder.chunks(cut=False, last=True):
             replay.add(chunk)
         replay.close({"time_s": self._now(), "complete": self._complete})
 
@@ -314,10 +328,9 @@ class ScenarioRun(ABC):
     @contextmanager
     def _protocol_environment(self) -> Iterator[None]:
         siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
+        record_event = None if self._recorder is None else self._recorder.event
         # Not kept: both would refer to each other.
-        log = RunLog(
-            self._log_level, self._scenario.nodes, self._now, self._active_node, self._log_recorder()
-        )
+        log = RunLog(self._log_level, self._scenario.nodes, self._now, self._active_node, record_event)
         with log, siblings, self._random.in_use():
             yield
 
@@ -338,23 +351,12 @@ class ScenarioRun(ABC):
         """Return the description of the run for a replay; `recorded` are nodes, None for all."""
 
     @abstractmethod
-    def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
-        """Return the chunks of the replay that are complete.
-
-        With `cut`, the one that is growing ends now; with `last`, the run has ended.
-        """
-
-    @abstractmethod
     def _now(self) -> float:
         """Return the simulated time in seconds."""
 
     @abstractmethod
     def _active_node(self) -> int | None:
         """Return the id of the node whose protocol is called now; None if there is none."""
-
-    @abstractmethod
-    def _log_recorder(self) -> RecordEvent | None:
-        """Return what records log lines for a replay; None if there is none."""
 
     @abstractmethod
     def _finish(self) -> None:

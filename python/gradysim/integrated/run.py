@@ -15,7 +15,6 @@ from gradysim.encapsulator.clock import let_clock_drift
 from gradysim.encapsulator.netsim import NetsimEncapsulator, NetsimProvider
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.encapsulator.tracked_variables import watch_tracked_variables
-from gradysim.execution.run_log import RecordEvent
 from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.integrated.autopilot_nodes import AutopilotNodes
 from gradysim.integrated.capture import capture_errors, checked_captures, start_captures
@@ -28,7 +27,6 @@ from gradysim.integrated.real_time import RealTimeRun
 from gradysim.integrated.replay import EngineRecorder, VariableListener
 from gradysim.protocol.errors import NativeProtocolError, add_protocol_note
 from gradysim.protocol.interface import IProtocol
-from gradysim.replay.chunk import RawChunk
 from gradysim.replay.description import describe, recorded_nodes
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.delays import Delays
@@ -103,7 +101,7 @@ class IntegratedRun(ScenarioRun):
         start_captures(self._network, scenario, files)
         # Protocols and network form a cycle; `execute` breaks it, but may never be called.
         weakref.finalize(self, self._network.release_protocols)
-        self._recorder = (
+        self._recorder: EngineRecorder | None = (
             None
             if replay is None
             else EngineRecorder(self._network, scenario, recorded_nodes(scenario, replay))
@@ -200,19 +198,12 @@ class IntegratedRun(ScenarioRun):
             self._scenario, self.mode, recorded, ranges_m(self._scenario), far_losses(self._scenario)
         )
 
-    def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
-        assert self._recorder is not None
-        return self._recorder.chunks(cut=cut, last=last)
-
     def _now(self) -> float:
         return self._network.now
 
     def _active_node(self) -> int | None:
         node = self._network.active_node
         return None if node < 0 else node
-
-    def _log_recorder(self) -> RecordEvent | None:
-        return None if self._recorder is None else self._recorder.event
 
     def _finish(self) -> None:
         with capture_errors():

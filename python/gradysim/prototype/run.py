@@ -8,11 +8,9 @@ import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
-from gradysim.execution.run_log import RecordEvent
 from gradysim.execution.scenario_run import ScenarioRun
 from gradysim.prototype.replay import PrototypeRecorder
 from gradysim.prototype.simulation import build_simulation
-from gradysim.replay.chunk import RawChunk
 from gradysim.replay.description import describe, recorded_nodes
 from gradysim.replay.sink import ReplaySink
 from gradysim.results.delays import constant_delays
@@ -56,7 +54,7 @@ class PrototypeRun(ScenarioRun):
                 constructor are raised, too.
         """
         super().__init__(scenario, vectors_of, replay, log_level)
-        self._recorder = (
+        self._recorder: PrototypeRecorder | None = (
             None if replay is None else PrototypeRecorder(self._now, recorded_nodes(scenario, replay))
         )
         with self._building():
@@ -78,18 +76,11 @@ class PrototypeRun(ScenarioRun):
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
         return describe(self._scenario, self.mode, recorded, ranges_of_prototype_m(self._scenario))
 
-    def _recorded_chunks(self, *, cut: bool = False, last: bool = False) -> Iterable[RawChunk]:
-        assert self._recorder is not None
-        return self._recorder.chunks(cut=cut, last=last)
-
     def _now(self) -> float:
         return self._simulator.current_time if hasattr(self, "_simulator") else 0.0
 
     def _active_node(self) -> int | None:
         return self._simulator.active_node if hasattr(self, "_simulator") else None
-
-    def _log_recorder(self) -> RecordEvent | None:
-        return None if self._recorder is None else self._recorder.event
 
     def _finish(self) -> None:
         self._simulator.finalize(complete=self._complete)
