@@ -154,8 +154,8 @@ pictures: figures $(node_packages) system-chromium  ## Draw the pictures of the 
 	$(BIN)/python docs/pictures/engine/draw.py
 	$(BIN)/python docs/pictures/architecture/draw.py
 
-schema: build  ## Rewrite what is derived from the declarations of the engine's fields.
-	$(BIN)/python cpp/proxy_protocol/write_schema.py
+schema: $(STAMPS)/build  ## Rewrite what is derived from the declarations of the engine's fields.
+	$(BIN)/python cpp/schema/write_schema.py
 
 fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerprints/update.py says when.
 	$(BIN)/python tests/fingerprints/update.py

@@ -1,7 +1,6 @@
 // The config structs with their declared fields (netsim/config/field.hpp), and the declarations
 // themselves. Fields have the same names in Python, except that C++'s type_name is typename.
 #include <array>
-#include <cmath>
 #include <set>
 #include <string>
 #include <type_traits>
@@ -14,6 +13,7 @@
 #include "netsim/config/field.hpp"
 #include "netsim/config/medium_config.hpp"
 #include "netsim/config/node_config.hpp"
+#include "netsim/config/schema_json.hpp"
 #include "netsim/mac/frame_802154.hpp"
 #include "netsim/node/known_formats.hpp"
 #include "netsim/phy/oqpsk_mode.hpp"
@@ -57,114 +57,10 @@ void bind_fields(py::class_<Config>& config) {
     }
 }
 
-py::object default_of(const Field& field, void* config) {
-    return std::visit([](auto* value) -> py::object { return py::cast(*value); }, field.of(config));
-}
-
-py::dict type_row(const Field& field) {
-    constexpr std::array kinds{"quantity", "level", "ratio", "number",   "integer",          "bytes",
-                               "boolean",  "name",  "file",  "bitrates", "powers_by_bitrate"};
-    const ValueType& type = field.type;
-    py::dict row;
-    row["kind"] = kinds[static_cast<std::size_t>(type.kind)];
-    if (!type.unit.empty()) {
-        row["unit"] = type.unit;
-    }
-    if (!type.shown.empty()) {
-        row["shown"] = type.shown;
-    }
-    if (type.is_number()) {
-        if (std::isfinite(type.least)) {
-            row[type.excludes_least ? "above" : "at_least"] = type.least;
-        }
-        if (std::isfinite(type.most)) {
-            row["at_most"] = type.most;
-        }
-        if (type.special && !field.must_be_set) {
-            row["special"] = *type.special;
-        }
-    }
-    if (type.kind == ValueType::Kind::name) {
-        row["names"] = std::vector<std::string>(type.names.begin(), type.names.end());
-    }
-    return row;
-}
-
-py::object read_by_row(const ReadBy& read_by) {
-    if (read_by.chosen_by.empty()) {
-        return py::none();
-    }
-    py::dict row;
-    row["chosen_by"] = read_by.chosen_by;
-    row["names"] = std::vector<std::string>(read_by.names.begin(), read_by.names.end());
-    row["shown"] = read_by.shown;
-    return row;
-}
-
-// {name of the variant: default of the field}; "" is the standard variant.
-py::dict defaults_row(const Schema& schema, const Field& field) {
-    static InterfaceConfig station{};
-    static InterfaceConfig device{std::string(ieee802154_interface)};
-    static MediumConfig medium{};
-    static MediumConfig narrowband_medium{std::string(ieee802154_scalar_medium)};
-    static MobilityConfig mobility{};
-    static ComputerConfig computer{};
-    static ObstacleConfig obstacle{};
-    static WindConfig wind{};
-    const auto parts = [&](InterfaceConfig& interface) -> void* {
-        if (&schema == &InterfaceConfig::schema) {
-            return &interface;
-        }
-        if (&schema == &RadioConfig::schema) {
-            return &interface.radio;
-        }
-        if (&schema == &AntennaConfig::schema) {
-            return &interface.radio.antenna;
-        }
-        return &schema == &MacConfig::schema ? static_cast<void*>(&interface.mac) : &interface.csma;
-    };
-    py::dict row;
-    if (&schema == &MediumConfig::schema) {
-        row[""] = default_of(field, &medium);
-        row["802.15.4"] = default_of(field, &narrowband_medium);
-    } else if (&schema == &MobilityConfig::schema) {
-        row[""] = default_of(field, &mobility);
-    } else if (&schema == &ComputerConfig::schema) {
-        row[""] = default_of(field, &computer);
-    } else if (&schema == &ObstacleConfig::schema) {
-        row[""] = default_of(field, &obstacle);
-    } else if (&schema == &WindConfig::schema) {
-        row[""] = default_of(field, &wind);
-    } else {
-        row[""] = default_of(field, parts(station));
-        row["802.15.4"] = default_of(field, parts(device));
-    }
-    return row;
-}
-
-// The declaration of every field, as plain values.
-py::list schema_rows() {
-    py::list rows;
-    for (const Schema* schema : all_schemas()) {
-        for (const Field& field : schema->fields) {
-            py::dict row;
-            row["target"] = schema->full_name(field);
-            row["key"] = field.key.empty() ? "" : std::string(schema->path) + "." + std::string(field.key);
-            row["of"] = schema->is_of_node ? "node" : "network";
-            row["type"] = type_row(field);
-            row["meaning"] = field.meaning;
-            row["read_by"] = read_by_row(field.read_by.value_or(schema->read_by));
-            row["defaults"] = field.must_be_set ? py::dict() : defaults_row(*schema, field);
-            rows.append(row);
-        }
-    }
-    return rows;
-}
-
 }  // namespace
 
 void bind_config(py::module_& module) {
-    module.def("schema", &schema_rows);
+    module.def("schema", [] { return py::module_::import("json").attr("loads")(schema_json()); });
 
     py::class_<ObstacleConfig> obstacle(module, "ObstacleConfig");
     obstacle.def(py::init<>())

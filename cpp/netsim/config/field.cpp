@@ -77,6 +77,39 @@ std::string Schema::full_name(const Field& field) const {
     return std::string(name).append(".").append(field.name);
 }
 
+std::vector<std::string_view> Schema::readers(const Field& field) const {
+    const std::string_view read = field.read_by ? field.name : name;
+    std::vector<std::string_view> names;
+    for (const Model& model : family(field).models) {
+        if (model.does_read(read) || model.does_read(full_name(field))) {
+            names.push_back(model.name);
+        }
+    }
+    return names;
+}
+
+std::string Schema::readers_shown(const Field& field) const {
+    if (!field.read_by) {
+        return std::string(shown);
+    }
+    std::vector<std::string_view> names = readers(field);
+    std::vector<std::string_view> others;
+    for (const Model& model : field.read_by->models) {
+        if (!model.name.empty() && std::ranges::find(names, model.name) == names.end()) {
+            others.push_back(model.name);
+        }
+    }
+    std::string text = shown.empty() || names.empty() ? std::string(shown) : std::string(shown) + ", ";
+    if (!others.empty() && others.size() + 1 < names.size()) {
+        text += "All but ";
+        names = others;
+    }
+    for (const std::string_view model : names) {
+        text.append(model == names.front() ? "" : ", ").append(model);
+    }
+    return text;
+}
+
 std::span<const Schema* const> all_schemas() {
     static constexpr std::array schemas{
         &MobilityConfig::schema, &ComputerConfig::schema, &InterfaceConfig::schema, &MacConfig::schema,
@@ -101,25 +134,23 @@ void check_value(std::string_view field, std::string_view value, const ValueType
 
 void check_fields(const Schema& schema, const void* config) {
     for (const Field& field : schema.fields) {
-        // The accessor returns a mutable value, which this code only reads.
-        const Member value =
-            field.of(const_cast<void*>(config));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-        if (const auto* number = std::get_if<double*>(&value)) {
+        const ConstMember value = field.of(config);
+        if (const auto* number = std::get_if<const double*>(&value)) {
             if (!field.type.contains(**number)) {
                 check_value(schema.full_name(field), **number, field.type);
             }
-        } else if (const auto* integer = std::get_if<int*>(&value)) {
+        } else if (const auto* integer = std::get_if<const int*>(&value)) {
             if (!field.type.contains(**integer)) {
                 check_value(schema.full_name(field), **integer, field.type);
             }
-        } else if (const auto* name = std::get_if<std::string*>(&value);
+        } else if (const auto* name = std::get_if<const std::string*>(&value);
                    name != nullptr && field.type.kind == ValueType::Kind::name) {
             check_value(schema.full_name(field), **name, field.type);
-        } else if (const auto* rates = std::get_if<Bitrates*>(&value)) {
+        } else if (const auto* rates = std::get_if<const Bitrates*>(&value)) {
             for (const double bitrate_bps : **rates) {
                 check_value(schema.full_name(field), bitrate_bps, field.type);
             }
-        } else if (const auto* powers = std::get_if<PowersByBitrate*>(&value)) {
+        } else if (const auto* powers = std::get_if<const PowersByBitrate*>(&value)) {
             for (const auto& [bitrate_bps, power_w] : **powers) {
                 check_value(schema.full_name(field), bitrate_bps, bitrates());
                 check_value(schema.full_name(field), power_w, field.type);

@@ -4,7 +4,7 @@
 // keys that .ini files accept with their errors, the reference page of keys, and the values that the fuzzer tries.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "netsim/config/model.hpp"
 #include "netsim/error.hpp"
 
 namespace netsim {
@@ -129,21 +130,42 @@ constexpr ValueType powers_by_bitrate() {
     return {.kind = ValueType::Kind::powers_by_bitrate, .unit = "W", .shown = "mW", .least = 0};
 }
 
-// The models that read a field, if another field chooses among several models.
+// The family of models that decides whether a field is read: a model reads it if its row names it.
 struct ReadBy {
-    std::string_view chosen_by;               // "radio.error_model"; "": every model reads it
-    std::span<const std::string_view> names;  // values of that field
-    std::string_view shown;                   // the name of these models in lists of keys; "" to leave it out
+    std::string_view chosen_by =
+        {};  // the field that chooses the model: "radio.error_model"; "": every model reads it
+    std::span<const Model> models = {};
 };
 
 using Bitrates = std::vector<double>;                            // in bps
 using PowersByBitrate = std::vector<std::pair<double, double>>;  // {bitrate in bps, power in W}
 using Member = std::variant<double*, int*, bool*, std::string*, Bitrates*, PowersByBitrate*>;
+using ConstMember = std::variant<const double*, const int*, const bool*, const std::string*, const Bitrates*,
+                                 const PowersByBitrate*>;
+
+// Where a field is in its struct. This is data, as headers declare fields: with pointers to members, each source that
+// includes the header would compile a function for each field.
+struct Accessor {
+    std::size_t offset;
+    Member (*value_at)(void* address);
+    ConstMember (*const_value_at)(const void* address);
+
+    Member operator()(void* config) const { return value_at(static_cast<std::byte*>(config) + offset); }
+    ConstMember operator()(const void* config) const {
+        return const_value_at(static_cast<const std::byte*>(config) + offset);
+    }
+};
+
+template <typename Value>
+constexpr Accessor accessor(std::size_t offset) {
+    return {offset, [](void* address) -> Member { return static_cast<Value*>(address); },
+            [](const void* address) -> ConstMember { return static_cast<const Value*>(address); }};
+}
 
 struct Field {
-    std::string_view name;       // the name in C++ and Python
-    Member (*of)(void* config);  // the field of a struct
-    std::string_view key;        // the key in .ini files, below the path of the struct
+    std::string_view name;  // the name in C++ and Python
+    Accessor of;
+    std::string_view key;  // the key in .ini files, below the path of the struct
     ValueType type;
     std::string_view meaning;            // one sentence for lists of keys
     std::optional<ReadBy> read_by = {};  // default: that of the struct
@@ -156,9 +178,15 @@ struct Schema {
     std::string_view path;  // of their keys: below a node if `is_of_node`, else below the network
     bool is_of_node;
     std::span<const Field> fields;
-    ReadBy read_by = {};
+    ReadBy read_by = {};          // of fields without their own
+    std::string_view shown = {};  // the name of these models in lists of keys; "" to leave it out
 
     std::string full_name(const Field& field) const;
+    const ReadBy& family(const Field& field) const { return field.read_by ? *field.read_by : read_by; }
+    // Names of the models of that family that read the field.
+    std::vector<std::string_view> readers(const Field& field) const;
+    // The same for lists of keys: "RayleighFading, RicianFading", or "All but …" if that is shorter.
+    std::string readers_shown(const Field& field) const;
 };
 
 // Schemas of all structs that .ini files set, in the order in which lists of keys show them.
@@ -177,16 +205,9 @@ void check_fields(const Config& config) {
     check_fields(Config::schema, &config);
 }
 
-// Accessor of a field, or of a part of one: `member<&AntennaConfig::offset, &EulerAngles::heading_rad>`.
-template <auto First, auto... Rest>
-Member member(void* config) {
-    const auto of = []<typename Config, typename Value>(void* object, Value Config::* field) -> auto& {
-        return static_cast<Config*>(object)->*field;
-    };
-    return &(of(config, First).*....*Rest);
-}
-
 }  // namespace netsim
 
+// Accessor of a field, or of a part of one: NETSIM_MEMBER(AntennaConfig, offset.heading_rad).
+#define NETSIM_MEMBER(Config, field) ::netsim::accessor<decltype(Config::field)>(offsetof(Config, field))
 // Name and accessor of a field, for the first two members of a Field.
-#define NETSIM_FIELD(Config, field) #field, &::netsim::member<&Config::field>
+#define NETSIM_FIELD(Config, field) #field, NETSIM_MEMBER(Config, field)

@@ -1,15 +1,7 @@
 #include "netsim/config/interface_config.hpp"
 
-#include "netsim/config/medium_config.hpp"
-
 namespace netsim {
 namespace {
-
-constexpr Field fields[] = {
-    {"typename", &member<&InterfaceConfig::type_name>, "typename", one_of(interface_type_names),
-     "Network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
-     ReadBy{}},
-};
 
 // An error model fits one modulation only. No errors fit all.
 void check_error_model(const std::string& interface_type, const std::string& error_model) {
@@ -41,8 +33,6 @@ void check_bandwidth(const InterfaceConfig& config) {
 }
 
 }  // namespace
-
-const Schema InterfaceConfig::schema{"interface", "wlan[0]", true, fields, with_radios};
 
 void InterfaceConfig::validate() const {
     check_fields(*this);

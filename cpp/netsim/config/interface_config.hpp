@@ -8,6 +8,7 @@
 #include "netsim/config/csma_config.hpp"
 #include "netsim/config/interface_type.hpp"
 #include "netsim/config/mac_config.hpp"
+#include "netsim/config/medium_config.hpp"
 #include "netsim/config/radio_config.hpp"
 
 namespace netsim {
@@ -27,5 +28,13 @@ struct InterfaceConfig {
     // Throws ConfigError for the first field outside its range, in one of the parts: "radio.tx_power_w = …".
     void validate() const;
 };
+
+inline constexpr Field interface_fields[] = {
+    {"typename", NETSIM_MEMBER(InterfaceConfig, type_name), "typename", one_of(interface_type_names),
+     "Network interface: a station of 802.11, or a device of 802.15.4, whose radio has other defaults",
+     ReadBy{}},
+};
+
+inline constexpr Schema InterfaceConfig::schema{"interface", "wlan[0]", true, interface_fields, with_radios};
 
 }  // namespace netsim

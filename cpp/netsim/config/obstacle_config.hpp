@@ -17,9 +17,15 @@ inline constexpr std::array<std::string_view, 10> material_names{
     "concrete", "brick",        "plasterboard", "wood",    "glass",
     "marble",   "ceilingBoard", "chipboard",    "plywood", "metal"};
 
-inline constexpr std::string_view dielectric_obstacle_loss = "DielectricObstacleLoss";
-inline constexpr std::array<std::string_view, 3> obstacle_loss_names{"", "IdealObstacleLoss",
-                                                                     dielectric_obstacle_loss};
+inline constexpr Model obstacle_losses[] = {
+    {""},
+    {"IdealObstacleLoss", {"obstacle"}},
+    {"DielectricObstacleLoss",
+     {"obstacle", "obstacle.material", "obstacle.relative_permittivity", "obstacle.conductivity_spm",
+      "enable_dielectric_loss", "enable_reflection_loss"}},
+};
+inline constexpr auto obstacle_loss_names = names_of(obstacle_losses);
+inline constexpr ReadBy by_obstacle_loss{"medium.obstacle_loss", obstacle_losses};
 
 struct ObstacleConfig {
     std::string name = "obstacle";  // for people
@@ -35,5 +41,27 @@ struct ObstacleConfig {
     // Throws ConfigError for the first field out of its range: "obstacle.top_m = -1 m: expected …".
     void validate() const;
 };
+
+namespace obstacle_values {
+inline constexpr ValueType height =
+    quantity("m").at_least(-largest_coordinate_m).at_most(largest_coordinate_m);
+}  // namespace obstacle_values
+
+inline constexpr Field obstacle_fields[] = {
+    // Scenario files have other keys for the body, which is made of them.
+    {NETSIM_FIELD(ObstacleConfig, base_m), "", obstacle_values::height, ""},
+    {NETSIM_FIELD(ObstacleConfig, top_m), "", obstacle_values::height, ""},
+    {NETSIM_FIELD(ObstacleConfig, material), "material", one_of(material_names), "what it is made of",
+     by_obstacle_loss},
+    {NETSIM_FIELD(ObstacleConfig, relative_permittivity), "relativePermittivity",
+     number().at_least(1).or_special(-1, "that of the material"),
+     "relative permittivity; -1: that of the material", by_obstacle_loss},
+    {NETSIM_FIELD(ObstacleConfig, conductivity_spm), "conductivity",
+     number().at_least(0).or_special(-1, "that of the material"),
+     "conductivity in S/m; -1: that of the material", by_obstacle_loss},
+};
+
+inline constexpr Schema ObstacleConfig::schema{"obstacle", "environment.obstacle[0]", false, obstacle_fields,
+                                               by_obstacle_loss};
 
 }  // namespace netsim

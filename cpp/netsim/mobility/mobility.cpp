@@ -38,22 +38,39 @@ void Mobility::check_speed(double speed_mps) const {
 
 namespace {
 
-std::unique_ptr<Mobility> make_model(const MobilityConfig& config, Position initial, const WindConfig& wind,
-                                     std::uint64_t seed, std::uint32_t node) {
-    if (config.type_name == "StationaryMobility") {
-        return std::make_unique<StationaryMobility>(initial);
-    }
-    if (std::unique_ptr<Path> path = make_path(config, initial)) {
-        return std::make_unique<PathMobility>(std::move(path));
-    }
-    if (config.type_name == "QuadcopterMobility") {
-        const Airframe airframe{.acceleration_mps2 = config.acceleration_mps2, .drag_kgps = config.drag_kgps};
-        return std::make_unique<QuadcopterMobility>(initial, config.speed_mps, airframe,
-                                                    Wind(wind, seed, node));
-    }
-    NETSIM_ASSERT(config.type_name == "MasslessMobility");
-    return std::make_unique<MasslessMobility>(initial, config.speed_mps);
+struct Place {
+    Position initial;
+    const WindConfig& wind;
+    std::uint64_t seed = 0;
+    std::uint32_t node = 0;
+};
+using Made = std::unique_ptr<Mobility>;
+
+Made on_path(const MobilityConfig& config, const Place& place) {
+    return std::make_unique<PathMobility>(make_path(config, place.initial));
 }
+
+constexpr Factory<Made (*)(const MobilityConfig&, const Place&)> factories[] = {
+    {"MasslessMobility",
+     [](const MobilityConfig& config, const Place& place) -> Made {
+         return std::make_unique<MasslessMobility>(place.initial, config.speed_mps);
+     }},
+    {"StationaryMobility",
+     [](const MobilityConfig&, const Place& place) -> Made {
+         return std::make_unique<StationaryMobility>(place.initial);
+     }},
+    {"LinearMobility", on_path},
+    {"CircleMobility", on_path},
+    {"RectangleMobility", on_path},
+    {"QuadcopterMobility",
+     [](const MobilityConfig& config, const Place& place) -> Made {
+         const Airframe airframe{.acceleration_mps2 = config.acceleration_mps2,
+                                 .drag_kgps = config.drag_kgps};
+         return std::make_unique<QuadcopterMobility>(place.initial, config.speed_mps, airframe,
+                                                     Wind(place.wind, place.seed, place.node));
+     }},
+};
+static_assert(makes_all(factories, std::span(mobility_models).first<mobility_type_names.size()>()));
 
 // Slow, as that of a satellite receiver.
 std::unique_ptr<GaussMarkov> make_position_error(const MobilityConfig& config, std::uint64_t seed,
@@ -70,7 +87,8 @@ std::unique_ptr<GaussMarkov> make_position_error(const MobilityConfig& config, s
 
 std::unique_ptr<Mobility> make_mobility(const MobilityConfig& config, Position initial,
                                         const WindConfig& wind, std::uint64_t seed, std::uint32_t node) {
-    std::unique_ptr<Mobility> model = make_model(config, initial, wind, seed, node);
+    std::unique_ptr<Mobility> model =
+        factory_of(config.type_name, factories)(config, {initial, wind, seed, node});
     if (config.position_error_m > 0) {
         model->set_position_error(make_position_error(config, seed, node));
     }

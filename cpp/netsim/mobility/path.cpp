@@ -150,19 +150,25 @@ private:
     double start_m_ = 0;
 };
 
+using Made = std::unique_ptr<Path>;
+
+constexpr Factory<Made (*)(const MobilityConfig&, Position initial)> factories[] = {
+    {"LinearMobility",
+     [](const MobilityConfig& config, Position initial) -> Made {
+         return std::make_unique<Linear>(config, initial);
+     }},
+    {"CircleMobility",
+     [](const MobilityConfig& config, Position) -> Made { return std::make_unique<Circle>(config); }},
+    {"RectangleMobility",
+     [](const MobilityConfig& config, Position initial) -> Made {
+         return std::make_unique<Rectangle>(config, initial);
+     }},
+};
+
 }  // namespace
 
 std::unique_ptr<Path> make_path(const MobilityConfig& config, Position initial) {
-    if (config.type_name == "LinearMobility") {
-        return std::make_unique<Linear>(config, initial);
-    }
-    if (config.type_name == "CircleMobility") {
-        return std::make_unique<Circle>(config);
-    }
-    if (config.type_name == "RectangleMobility") {
-        return std::make_unique<Rectangle>(config, initial);
-    }
-    return nullptr;
+    return factory_of(config.type_name, factories)(config, initial);
 }
 
 }  // namespace netsim

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "netsim/config/check.hpp"
-#include "netsim/error.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -116,25 +115,35 @@ Position axis(const std::string& name) {
     return name == "y" ? Position{0, 1, 0} : Position{0, 0, 1};
 }
 
+using Pattern = std::unique_ptr<const AntennaPattern>;
+
+constexpr Factory<Pattern (*)(const AntennaConfig&, double carrier_hz)> factories[] = {
+    {"IsotropicAntenna", [](const AntennaConfig&, double) { return Pattern(); }},
+    {"ConstantGainAntenna",
+     [](const AntennaConfig& config, double) -> Pattern {
+         return std::make_unique<ConstantGain>(config.gain);
+     }},
+    {"DipoleAntenna",
+     [](const AntennaConfig& config, double carrier_hz) -> Pattern {
+         const double wave_number = 2 * pi * carrier_hz / speed_of_light_mps;
+         return std::make_unique<Dipole>(axis(config.wire_axis), wave_number * config.length_m);
+     }},
+    {"CosineAntenna",
+     [](const AntennaConfig& config, double) -> Pattern {
+         return std::make_unique<Cosine>(config.max_gain, config.beam_width_rad);
+     }},
+    {"ParabolicAntenna",
+     [](const AntennaConfig& config, double) -> Pattern {
+         return std::make_unique<Parabolic>(config.max_gain, config.min_gain, config.beam_width_rad);
+     }},
+};
+static_assert(makes_all(factories, antenna_models));
+
 }  // namespace
 
 std::unique_ptr<const AntennaPattern> make_antenna(const AntennaConfig& config, double carrier_hz) {
     check_name("antenna.typename", config.type_name, antenna_type_names);
-    if (config.type_name == "IsotropicAntenna") {
-        return nullptr;
-    }
-    if (config.type_name == "ConstantGainAntenna") {
-        return std::make_unique<ConstantGain>(config.gain);
-    }
-    if (config.type_name == "DipoleAntenna") {
-        const double wave_number = 2 * pi * carrier_hz / speed_of_light_mps;
-        return std::make_unique<Dipole>(axis(config.wire_axis), wave_number * config.length_m);
-    }
-    if (config.type_name == "CosineAntenna") {
-        return std::make_unique<Cosine>(config.max_gain, config.beam_width_rad);
-    }
-    NETSIM_ASSERT(config.type_name == "ParabolicAntenna");
-    return std::make_unique<Parabolic>(config.max_gain, config.min_gain, config.beam_width_rad);
+    return factory_of(config.type_name, factories)(config, carrier_hz);
 }
 
 }  // namespace netsim

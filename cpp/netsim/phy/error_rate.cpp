@@ -178,30 +178,48 @@ double NistErrorModel::log_data_success(const Mode& mode, double snir, int psdu_
     return log_success(bit_error_rate(mode, snir), static_cast<double>(mode.data_bits(psdu_bytes)));
 }
 
-const ErrorModel& error_model(std::string_view name) {
-    static const NistErrorModel despreading(despreading_rates);
-    static const NistErrorModel nist(inet_rates);
-    static const OqpskErrorModel oqpsk;
-    static const NoErrorModel none;
-    check_name("radio.error_model", name, error_model_names);
-    if (name == "Ieee802154ErrorModel") {
-        return oqpsk;
-    }
-    if (name.empty()) {
-        return none;
-    }
-    if (name == "Ieee80211NistErrorModel") {
-        return nist;
-    }
-    NETSIM_ASSERT(name == "Ieee80211DespreadingErrorModel");
-    return despreading;
+namespace {
+
+using Made = std::shared_ptr<const ErrorModel>;
+
+// A model without parameters is static, and is not owned.
+Made shared(const ErrorModel& model) {
+    return {Made(), &model};
 }
 
+constexpr Factory<Made (*)(const RadioConfig&)> factories[] = {
+    {"Ieee80211DespreadingErrorModel",
+     [](const RadioConfig&) {
+         static const NistErrorModel model(despreading_rates);
+         return shared(model);
+     }},
+    {"Ieee80211NistErrorModel",
+     [](const RadioConfig&) {
+         static const NistErrorModel model(inet_rates);
+         return shared(model);
+     }},
+    {"Ieee80211BerTableErrorModel",
+     [](const RadioConfig& config) -> Made {
+         return std::make_shared<const BerTableErrorModel>(config.ber_table_file);
+     }},
+    {"Ieee802154ErrorModel",
+     [](const RadioConfig&) {
+         static const OqpskErrorModel model;
+         return shared(model);
+     }},
+    {"",
+     [](const RadioConfig&) {
+         static const NoErrorModel model;
+         return shared(model);
+     }},
+};
+static_assert(makes_all(factories, error_models));
+
+}  // namespace
+
 std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config) {
-    if (config.error_model == ber_table_error_model) {
-        return std::make_shared<const BerTableErrorModel>(config.ber_table_file);
-    }
-    return {std::shared_ptr<const ErrorModel>(), &error_model(config.error_model)};  // static: not owned
+    check_name("radio.error_model", config.error_model, error_model_names);
+    return factory_of(config.error_model, factories)(config);
 }
 
 }  // namespace netsim

@@ -19,7 +19,6 @@
 
 #include <cmath>
 #include <memory>
-#include <string_view>
 
 #include "netsim/config/radio_config.hpp"
 #include "netsim/phy/modes.hpp"
@@ -82,11 +81,8 @@ public:
     double min_success(const Mode& /*mode*/, double /*snir*/, int /*psdu_bytes*/) const override { return 1; }
 };
 
-// Returns a model without parameters by its RadioConfig::error_model. Throws ConfigError for other
-// names.
-const ErrorModel& error_model(std::string_view name);
-// Creates any model, and reads its file if it has one. Throws ConfigError for an unknown name or an
-// invalid file.
+// The model of RadioConfig::error_model. Reads its file if it has one; models without parameters are static. Throws
+// ConfigError for an unknown name or an invalid file.
 std::shared_ptr<const ErrorModel> make_error_model(const RadioConfig& config);
 
 }  // namespace netsim

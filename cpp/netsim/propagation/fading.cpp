@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "netsim/units.hpp"
 
@@ -48,19 +49,19 @@ double chance_within(double radius, double line) {
 
 Fading::Fading(const MediumConfig& config, std::uint64_t seed)
     : gaussians_(seed, Purpose::fading, SimTime::from_seconds(config.coherence_time())) {
-    if (config.path_loss == "LogNormalShadowing") {
-        set_log_normal(config.sigma_db);
-    } else if (config.path_loss == "RayleighFading" || config.path_loss == "RicianFading") {
-        kind_ = Kind::rician;
-        k_ = config.path_loss == "RicianFading" ? ratio_from_db(config.k_db) : 0;
-        cut_off(std::sqrt(2 * rare_scattered));
-    } else if (config.path_loss == "NakagamiFading") {
-        kind_ = Kind::nakagami;
-        shape_ = config.shape_factor;
-        if (shape_ != 1) {
-            gamma_.emplace(shape_);
-        }
-        cut_off(rare_normal);
+    using Set = void (*)(Fading&, const MediumConfig&);
+    constexpr Factory<Set> factories[] = {
+        {"LogNormalShadowing",
+         [](Fading& made, const MediumConfig& of) { made.set_log_normal(of.sigma_db); }},
+        {"RayleighFading", [](Fading& made, const MediumConfig&) { made.set_rician(0); }},
+        {"RicianFading",
+         [](Fading& made, const MediumConfig& of) { made.set_rician(ratio_from_db(of.k_db)); }},
+        {"NakagamiFading", [](Fading& made, const MediumConfig& of) { made.set_nakagami(of.shape_factor); }},
+    };
+    static_assert(makes_all(factories, path_losses | std::views::filter(is_random)));
+    const Model& model = model_named(config.path_loss, path_losses);
+    if (is_random(model)) {
+        factory_of(model.name, factories)(*this, config);
     }
 }
 
@@ -77,6 +78,21 @@ void Fading::set_log_normal(double sigma_db) {
         sigma_ = sigma_db * std::numbers::ln10 / 10;
         cut_off(rare_normal);
     }
+}
+
+void Fading::set_rician(double k) {
+    kind_ = Kind::rician;
+    k_ = k;
+    cut_off(std::sqrt(2 * rare_scattered));
+}
+
+void Fading::set_nakagami(double shape) {
+    kind_ = Kind::nakagami;
+    shape_ = shape;
+    if (shape_ != 1) {
+        gamma_.emplace(shape_);
+    }
+    cut_off(rare_normal);
 }
 
 void Fading::cut_off(double farthest) {

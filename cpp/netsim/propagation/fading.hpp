@@ -55,6 +55,8 @@ private:
     explicit Fading(const LinkGaussians& gaussians) : gaussians_(gaussians) {}
 
     void set_log_normal(double sigma_db);
+    void set_rician(double k);
+    void set_nakagami(double shape);
     // Cuts the model off at the gain of a pair that is `farthest` from 0.
     void cut_off(double farthest);
     double untruncated(const GaussianPair& normal) const;

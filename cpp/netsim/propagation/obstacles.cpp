@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace netsim {
@@ -50,12 +51,17 @@ private:
 }  // namespace
 
 Obstacles::Obstacles(const MediumConfig& config)
-    : blocks_all_(config.obstacle_loss == "IdealObstacleLoss"),
-      enable_dielectric_loss_(config.enable_dielectric_loss),
+    : enable_dielectric_loss_(config.enable_dielectric_loss),
       enable_reflection_loss_(config.enable_reflection_loss) {
     if (config.obstacle_loss.empty() || config.obstacles.empty()) {
         return;
     }
+    constexpr Factory<Loss> losses[] = {
+        {"IdealObstacleLoss", &Obstacles::ideal_gain},
+        {"DielectricObstacleLoss", &Obstacles::dielectric_gain},
+    };
+    static_assert(makes_all(losses, std::span(obstacle_losses).subspan<1>()));
+    loss_ = factory_of(config.obstacle_loss, losses);
     configs_ = config.obstacles;
     for (const ObstacleConfig& obstacle : configs_) {
         indices_.push_back(bodies_.size());
@@ -173,13 +179,14 @@ std::vector<PowerBudget::Obstacle> Obstacles::crossed(const Position& a, const P
 }
 
 double Obstacles::gain_through(std::size_t body, const std::vector<Material>& materials) const {
-    if (crossing_.stretches().empty()) {
-        return 1;
-    }
-    if (blocks_all_) {
-        return 0;
-    }
-    const Material& material = materials[body];
+    return crossing_.stretches().empty() ? 1 : (this->*loss_)(materials[body]);
+}
+
+double Obstacles::ideal_gain(const Material& /*material*/) const {
+    return 0;
+}
+
+double Obstacles::dielectric_gain(const Material& material) const {
     double gain = 1;
     for (const Stretch& stretch : crossing_.stretches()) {
         if (enable_dielectric_loss_) {

@@ -52,7 +52,12 @@ private:
     void visit(const Position& a, const Position& b, double carrier_hz, Visit visit) const;
     double gain_through(std::size_t body, const std::vector<Material>& materials) const;
 
-    bool blocks_all_ = false;
+    // The gain through one body of that material, by the crossing that was found last.
+    using Loss = double (Obstacles::*)(const Material&) const;
+    double ideal_gain(const Material& material) const;
+    double dielectric_gain(const Material& material) const;
+
+    Loss loss_ = nullptr;
     bool enable_dielectric_loss_ = true;
     bool enable_reflection_loss_ = true;
     std::vector<ObstacleConfig> configs_;  // of each body

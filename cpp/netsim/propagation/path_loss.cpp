@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
-#include <string>
+#include <ranges>
 
 #include "netsim/config/check.hpp"
-#include "netsim/error.hpp"
 #include "netsim/units.hpp"
 
 namespace netsim {
@@ -30,39 +30,53 @@ double PathLoss::reach_m(double gain, double carrier_hz) const {
     return far_reach_m >= breakpoint_m ? far_reach_m : std::min(reach_of(near_), breakpoint_m);
 }
 
+namespace {
+
+using Carrier = PathLoss::Carrier;
+
+constexpr double friis = 1 / (16 * std::numbers::pi * std::numbers::pi);
+
+PathLoss free_space(const MediumConfig& config) {
+    return {{.coefficient = friis / config.system_loss, .exponent = config.alpha},
+            Carrier::squared_wavelength};
+}
+
+PathLoss breakpoint(const MediumConfig& config) {
+    const double at_breakpoint = ratio_from_db(-config.l02_db);
+    return {{.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1},
+            {.coefficient = at_breakpoint * std::pow(config.breakpoint_distance_m, config.alpha2),
+             .exponent = config.alpha2},
+            config.breakpoint_distance_m,
+            Carrier::any};
+}
+
+// From its crossover on, the model is below free space of exponent 2.
+PathLoss bound_of_ground_reflection(const MediumConfig& config) {
+    return {{.coefficient = friis, .exponent = std::max(config.alpha, 2.0)},
+            {.coefficient = friis, .exponent = std::min(config.alpha, 2.0)},
+            1,
+            Carrier::squared_wavelength};
+}
+
+// Two rays of equal strength in phase: twice the amplitude.
+PathLoss bound_of_interference(const MediumConfig& /*config*/) {
+    return {{.coefficient = 4 * friis, .exponent = 2}, Carrier::squared_wavelength};
+}
+
+constexpr Factory<PathLoss (*)(const MediumConfig&)> factories[] = {
+    {"FreeSpacePathLoss", free_space},
+    {"BreakpointPathLoss", breakpoint},
+    {"TwoRayGroundReflection", bound_of_ground_reflection},
+    {"TwoRayInterference", bound_of_interference},
+};
+static_assert(makes_all(factories, path_losses | std::views::filter(std::not_fn(is_random))));
+
+}  // namespace
+
 PathLoss make_path_loss(const MediumConfig& config) {
-    const std::string& name = config.path_loss;
-    check_name("medium.path_loss", name, path_loss_names);
-    PathLoss path_loss;
-    if (name == "BreakpointPathLoss") {
-        path_loss.near_ = {.coefficient = ratio_from_db(-config.l01_db), .exponent = config.alpha1};
-        path_loss.far_ = {.coefficient = ratio_from_db(-config.l02_db) *
-                                         std::pow(config.breakpoint_distance_m, config.alpha2),
-                          .exponent = config.alpha2};
-        path_loss.squared_breakpoint_m2_ = config.breakpoint_distance_m * config.breakpoint_distance_m;
-        return path_loss;
-    }
-    constexpr double pi = std::numbers::pi;
-    path_loss.depends_on_carrier_ = true;
-    if (name == "TwoRayInterference") {
-        // Two rays of equal strength in phase: twice the amplitude.
-        path_loss.near_ = {.coefficient = 4 / (16 * pi * pi), .exponent = 2};
-        path_loss.far_ = path_loss.near_;
-        return path_loss;
-    }
-    path_loss.near_ = {.coefficient = 1 / (16 * pi * pi), .exponent = config.alpha};
-    path_loss.far_ = path_loss.near_;
-    if (name == "TwoRayGroundReflection") {
-        // From its crossover on it is below free space of exponent 2.
-        path_loss.near_.exponent = std::max(config.alpha, 2.0);
-        path_loss.far_.exponent = std::min(config.alpha, 2.0);
-        path_loss.squared_breakpoint_m2_ = 1;
-        return path_loss;
-    }
-    path_loss.near_.coefficient /= config.system_loss;
-    path_loss.far_ = path_loss.near_;
-    NETSIM_ASSERT(name == "FreeSpacePathLoss" || std::ranges::find(fading_names, name) != fading_names.end());
-    return path_loss;
+    check_name("medium.path_loss", config.path_loss, path_loss_names);
+    const Model& model = model_named(config.path_loss, path_losses);
+    return is_random(model) ? free_space(config) : factory_of(model.name, factories)(config);
 }
 
 }  // namespace netsim

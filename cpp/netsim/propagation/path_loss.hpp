@@ -25,6 +25,18 @@ namespace netsim {
 
 class PathLoss {
 public:
+    struct PowerLaw {
+        double coefficient = 1;  // gain at 1 m; with squared_wavelength, of a wavelength of 1 m
+        double exponent = 2;
+    };
+    // Whether the gain is the same for all carriers, or rises with the square of the wavelength.
+    enum class Carrier { any, squared_wavelength };
+
+    PathLoss(PowerLaw law, Carrier carrier) : near_(law), far_(law), carrier_(carrier) {}
+    // `near` below the breakpoint, `far` from there on.
+    PathLoss(PowerLaw near, PowerLaw far, double breakpoint_m, Carrier carrier)
+        : near_(near), far_(far), squared_breakpoint_m2_(breakpoint_m * breakpoint_m), carrier_(carrier) {}
+
     // Received over transmitted power at `distance_m` ≥ 0, between isotropic antennas. Distance 0
     // gives 1.
     double gain(double distance_m, double carrier_hz) const {
@@ -51,17 +63,10 @@ public:
     bool is_one_law() const { return !(squared_breakpoint_m2_ < infinite_m2); }
 
 private:
-    friend PathLoss make_path_loss(const MediumConfig& config);
-
-    struct PowerLaw {
-        double coefficient = 1;  // gain at 1 m; if it depends on the carrier, at 1 m and a wavelength of 1 m
-        double exponent = 2;
-    };
-
     static constexpr double infinite_m2 = std::numeric_limits<double>::infinity();
 
     double wavelength_factor(double carrier_hz) const {
-        if (!depends_on_carrier_) {
+        if (carrier_ == Carrier::any) {
             return 1;
         }
         const double wavelength_m = speed_of_light_mps / carrier_hz;
@@ -71,7 +76,7 @@ private:
     PowerLaw near_;
     PowerLaw far_;
     double squared_breakpoint_m2_ = infinite_m2;
-    bool depends_on_carrier_ = false;
+    Carrier carrier_;
 };
 
 inline double PathLoss::gain_at_squared_distance(double squared_distance_m2, double carrier_hz) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ranges>
 
 #include "netsim/units.hpp"
 
@@ -13,11 +14,13 @@ TwoRay::TwoRay(const MediumConfig& config)
       epsilon_r_(config.epsilon_r),
       is_vertical_(config.polarization == "vertical"),
       sign_(is_vertical_ && config.inet_vertical_sign ? -1 : 1) {
-    if (config.path_loss == "TwoRayGroundReflection") {
-        kind_ = Kind::ground_reflection;
-    } else if (config.path_loss == "TwoRayInterference") {
-        kind_ = Kind::interference;
-    }
+    constexpr Factory<Kind> kinds[] = {
+        {"TwoRayGroundReflection", Kind::ground_reflection},
+        {"TwoRayInterference", Kind::interference},
+    };
+    static_assert(makes_all(kinds, path_losses | std::views::filter(has_ground)));
+    const Model& model = model_named(config.path_loss, path_losses);
+    kind_ = has_ground(model) ? factory_of(model.name, kinds) : Kind::none;
 }
 
 double TwoRay::gain(const Position& a, const Position& b, double distance_m, double carrier_hz) const {

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, TypeVar
 from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, PowersForRanges, range_of
-from gradysim.integrated.two_ray_ground import TWO_RAY
 from gradysim.replay.description import FarLoss
-from gradysim.scenario.keys import has_radios
+from gradysim.scenario.keys import PATH_LOSS_EFFECTS, has_radios
 from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.ranges import are_alike, ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
@@ -23,8 +22,6 @@ Value = TypeVar("Value")
 
 _FAR_M = (1e5, 1e6)
 """Distances beyond any change of the exponent, in meters."""
-
-_WITHOUT_CHANCE = ("FreeSpacePathLoss", "BreakpointPathLoss")
 
 _DBM_PER_DBW = 30
 
@@ -44,10 +41,11 @@ def ranges_m(scenario: Scenario) -> list[float | None]:
 def far_losses(scenario: Scenario) -> list[FarLoss | None]:
     """Return the path loss of each node's wlan[0] far away; None if it is not a power of the distance."""
     medium = medium_config(scenario)
-    is_random = medium.path_loss not in _WITHOUT_CHANCE or medium.shadowing_standard_deviation_db > 0
+    random_losses = (*PATH_LOSS_EFFECTS["shadowing"], *PATH_LOSS_EFFECTS["fading"])
+    is_random = medium.path_loss in random_losses or medium.shadowing_standard_deviation_db > 0
 
     def far_loss(radio: "RadioConfig", budget: "LinkBudget | None") -> FarLoss | None:
-        if budget is None or medium.path_loss in TWO_RAY:
+        if budget is None or medium.path_loss in PATH_LOSS_EFFECTS["ground"]:
             return None
         near_db, far_db = (-10 * math.log10(budget.mean_gain(distance_m)) for distance_m in _FAR_M)
         exponent = (far_db - near_db) / 10

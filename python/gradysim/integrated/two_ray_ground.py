@@ -3,19 +3,17 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from gradysim.scenario.keys import has_radios
+from gradysim.scenario.keys import PATH_LOSS_EFFECTS, has_radios
 from gradysim.scenario.node_spec import NodeSpec
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig
 
-TWO_RAY = ("TwoRayGroundReflection", "TwoRayInterference")
-
 
 def ground_hint(medium: "MediumConfig", nodes: Sequence[NodeSpec]) -> str:
     """Return advice for those of `nodes` that start on the ground, or ""."""
     low = [node.name for node in nodes if node.initial_position[2] == 0]
-    if not has_radios(medium.typename) or medium.path_loss not in TWO_RAY or not low:
+    if not has_radios(medium.typename) or medium.path_loss not in PATH_LOSS_EFFECTS["ground"] or not low:
         return ""
     start = "starts" if len(low) == 1 else f"and {len(low) - 1} more start"
     return (

@@ -14,7 +14,7 @@ from itertools import groupby
 from typing import Any
 
 from gradysim.scenario.ini import Section
-from gradysim.scenario.keys import MASSLESS, QUADCOPTER
+from gradysim.scenario.keys import MASSLESS, PATH_LOSS_EFFECTS, QUADCOPTER
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
 from gradysim.scenario.values import Setting
@@ -46,13 +46,13 @@ def _has_capture(scenario: Scenario) -> bool:
     return _has_radios(scenario) and _timing_is("mac")(scenario)
 
 
-def _path_loss_is(*names: str) -> Callable[[Scenario], bool]:
-    return lambda scenario: _value(scenario.medium, "path_loss") in names
+def _path_loss_has(effect: str) -> Callable[[Scenario], bool]:
+    return lambda scenario: _value(scenario.medium, "path_loss") in PATH_LOSS_EFFECTS[effect]
 
 
 def _has_shadowing(scenario: Scenario) -> bool:
     sigma_db = float(_value(scenario.medium, "shadowing_standard_deviation_db", 0))
-    return _path_loss_is("LogNormalShadowing")(scenario) or sigma_db > 0
+    return _path_loss_has("shadowing")(scenario) or sigma_db > 0
 
 
 def _has_other_systems(scenario: Scenario) -> bool:
@@ -222,14 +222,14 @@ LEVELS = (
         "fading",
         "gains that vary from frame to frame",
         _FREE_SPACE,
-        _path_loss_is("RayleighFading", "RicianFading", "NakagamiFading"),
+        _path_loss_has("fading"),
         needs=("radio",),
     ),
     Level(
         "ground",
         "reflection from the ground",
         _FREE_SPACE,
-        _path_loss_is("TwoRayGroundReflection", "TwoRayInterference"),
+        _path_loss_has("ground"),
         needs=("radio",),
     ),
     Level(

@@ -305,6 +305,8 @@ OBSTACLE_LOSS_KEYS = tuple(
     for key in _ENGINE["medium"]
     if key.field in ("obstacle_loss", "enable_dielectric_loss", "enable_reflection_loss")
 )
+PATH_LOSS_EFFECTS = engine_key("medium.path_loss").effects
+"""Names of the path losses in whose gains there is more than distance: "ground", "shadowing", "fading"."""
 PATH_LOSS_KEYS = tuple(key for key in _ENGINE["medium"] if key.path.startswith("radioMedium.pathLoss."))
 
 MATERIALS = _names("obstacle.material")

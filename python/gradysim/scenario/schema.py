@@ -5,7 +5,7 @@ schema.json, so that an installation without the compiled part knows all keys, t
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -61,6 +61,7 @@ class Key:
         default: Default as written in a file; "" for a key with `defaults`.
         read_by: Models that read it; None if all do.
         defaults: {variant: value} of a field of the engine; the variant "" is the usual one.
+        effects: {effect: names with it} of the key that chooses a path loss.
     """
 
     path: str
@@ -70,6 +71,7 @@ class Key:
     default: str = ""
     read_by: ReadBy | None = None
     defaults: Mapping[str, Any] = field(default_factory=dict, hash=False, compare=False)
+    effects: Mapping[str, Sequence[str]] = field(default_factory=dict, hash=False, compare=False)
 
     @property
     def written(self) -> str:
@@ -110,6 +112,7 @@ def engine_keys() -> Mapping[str, tuple[Key, ...]]:
             default="" if row["defaults"] else HAS_TO_BE_GIVEN,
             read_by=read_by and ReadBy(read_by["chosen_by"], tuple(read_by["names"]), read_by["shown"]),
             defaults=row["defaults"],
+            effects=row.get("effects", {}),
         )
         if key.path:
             keys.setdefault(key.struct, []).append(key)

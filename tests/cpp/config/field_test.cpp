@@ -2,7 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -152,7 +154,28 @@ TEST(Field, EveryWrongNameIsReportedWithItsField) {
     }
 }
 
-TEST(Field, ModelsThatReadAFieldCanBeChosen) {
+TEST(Field, RowsOfModelsNameFieldsOfTheirFamily) {
+    using Names = std::set<std::string, std::less<>>;
+    std::map<std::span<const Model>::pointer, Names> read;  // of each family
+    std::map<std::span<const Model>::pointer, std::size_t> sizes;
+    for (const Schema* schema : all_schemas()) {
+        read[schema->read_by.models.data()].emplace(schema->name);
+        for (const Field& field : schema->fields) {
+            const std::span<const Model> models = schema->family(field).models;
+            read[models.data()].insert({std::string(field.name), schema->full_name(field)});
+            sizes[models.data()] = models.size();
+        }
+    }
+    for (const auto& [models, size] : sizes) {
+        for (const Model& model : std::span(models, size)) {
+            for (const std::string_view name : model.reads) {
+                EXPECT_TRUE(name.empty() || read[models].contains(name)) << model.name << " reads " << name;
+            }
+        }
+    }
+}
+
+TEST(Field, AModelReadsEachFieldAndUsersCanChooseIt) {
     std::set<std::string> choices;
     for (const Schema* schema : all_schemas()) {
         for (const Field& field : schema->fields) {
@@ -164,13 +187,35 @@ TEST(Field, ModelsThatReadAFieldCanBeChosen) {
     choices.insert("mobility.typename = ArdupilotMobility");  // scenario files support it
     for (const Schema* schema : all_schemas()) {
         for (const Field& field : schema->fields) {
-            const ReadBy read_by = field.read_by.value_or(schema->read_by);
-            for (const std::string_view name : read_by.names) {
-                const std::string choice = std::string(read_by.chosen_by) + " = " + std::string(name);
+            const std::string_view chosen_by = schema->family(field).chosen_by;
+            EXPECT_EQ(schema->readers(field).empty(), chosen_by.empty()) << schema->full_name(field);
+            for (const std::string_view name : schema->readers(field)) {
+                const std::string choice = std::string(chosen_by) + " = " + std::string(name);
                 EXPECT_TRUE(choices.contains(choice)) << schema->full_name(field) << ": " << choice;
             }
         }
     }
+}
+
+// The readers of a field in lists of keys.
+std::string shown(std::string_view full_name) {
+    for (const Schema* schema : all_schemas()) {
+        for (const Field& field : schema->fields) {
+            if (schema->full_name(field) == full_name) {
+                return schema->readers_shown(field);
+            }
+        }
+    }
+    return "no such field";
+}
+
+TEST(Field, ListsOfKeysNameTheReadersOrTheOthersIfTheyAreFewer) {
+    EXPECT_EQ(shown("medium.sigma_db"), "LogNormalShadowing");
+    EXPECT_EQ(shown("medium.alpha"), "All but BreakpointPathLoss, TwoRayInterference");
+    EXPECT_EQ(shown("radio.noise_figure"), "ThermalNoise");
+    EXPECT_EQ(shown("csma.contention_window"), "802.15.4, linear, constant");
+    EXPECT_EQ(shown("csma.sifs_s"), "802.15.4");
+    EXPECT_EQ(shown("mac.cw_min"), "");
 }
 
 TEST(Field, WhatWasExpectedIsInTheUnitOfTheField) {

@@ -77,9 +77,5 @@ TEST(Paths, AtSpeedZeroHaveNoTurns) {
     }
 }
 
-TEST(Paths, OtherTypesHaveNone) {
-    EXPECT_EQ(make_path(config_of("MasslessMobility", 10), {}), nullptr);
-}
-
 }  // namespace
 }  // namespace netsim

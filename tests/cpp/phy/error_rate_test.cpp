@@ -19,6 +19,7 @@
 #include "netsim/config/radio_config.hpp"
 #include "netsim/error.hpp"
 #include "netsim/units.hpp"
+#include "support/error_model.hpp"
 
 namespace netsim {
 namespace {
@@ -300,20 +301,20 @@ TEST(NistErrorModel, HeaderAloneCanFailAFrame) {
 TEST(ErrorModel, EveryNameIsAModelOfItsOwn) {
     std::map<const ErrorModel*, std::string_view> names;
     for (const std::string_view name : error_model_names) {
-        if (name != ber_table_error_model) {  // it needs a file
-            const auto [other, is_new] = names.try_emplace(&error_model(name), name);
+        if (name != "Ieee80211BerTableErrorModel") {  // it needs a file
+            const auto [other, is_new] = names.try_emplace(&test::error_model(name), name);
             EXPECT_TRUE(is_new) << name << " is the same as " << other->second;
         }
     }
 }
 
 TEST(ErrorModel, WithoutAModelNoFrameIsLostToNoise) {
-    EXPECT_EQ(error_model("").success_probability(mode(54), 1e-6, 2304), 1);
-    EXPECT_EQ(error_model("").min_success(mode(54), 1e-6, 2304), 1);
+    EXPECT_EQ(test::error_model("").success_probability(mode(54), 1e-6, 2304), 1);
+    EXPECT_EQ(test::error_model("").min_success(mode(54), 1e-6, 2304), 1);
 }
 
 TEST(ErrorModel, UnknownNameIsAnError) {
-    EXPECT_THROW(error_model("Ieee80211YansErrorModel"), ConfigError);
+    EXPECT_THROW(test::error_model("Ieee80211YansErrorModel"), ConfigError);
 }
 
 }  // namespace

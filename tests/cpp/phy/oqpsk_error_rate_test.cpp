@@ -9,6 +9,7 @@
 
 #include "netsim/phy/oqpsk_mode.hpp"
 #include "netsim/units.hpp"
+#include "support/error_model.hpp"
 
 namespace netsim {
 namespace {
@@ -78,7 +79,8 @@ TEST(OqpskErrorModel, BitErrorsFallWithTheSnir) {
 }
 
 TEST(OqpskErrorModel, IsChosenByItsName) {
-    EXPECT_EQ(error_model("Ieee802154ErrorModel").success_probability(oqpsk_250_kbps, 1, 20), success(1, 20));
+    EXPECT_EQ(test::error_model("Ieee802154ErrorModel").success_probability(oqpsk_250_kbps, 1, 20),
+              success(1, 20));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "netsim/phy/error_rate.hpp"
 #include "support/air.hpp"
+#include "support/error_model.hpp"
 
 namespace netsim {
 namespace {
@@ -61,7 +62,7 @@ protected:
                medium.background_noise_w;
     }
     double success_at(double distance_m) const {
-        return error_model(RadioConfig().error_model)
+        return test::error_model(RadioConfig().error_model)
             .success_probability(mode, snr_at(distance_m), psdu_bytes);
     }
     // Distance at which the probability of success falls to `probability`.

@@ -7,6 +7,7 @@
 #include "netsim/kernel/random.hpp"
 #include "netsim/medium/arrival.hpp"
 #include "netsim/phy/modes.hpp"
+#include "support/error_model.hpp"
 
 namespace netsim {
 namespace {
@@ -31,7 +32,7 @@ struct Frame100 {
 };
 
 ReceptionModel model(double snir_threshold = 0) {
-    return {&error_model("Ieee80211NistErrorModel"), snir_threshold, noise_w};
+    return {&test::error_model("Ieee80211NistErrorModel"), snir_threshold, noise_w};
 }
 
 double success(const ReceptionModel& reception, FramePart part, const Arrival& arrival,

@@ -1,38 +1,61 @@
-// Draws the parameters of the models of path loss and fading, within and beyond their usual
-// values.
+// Draws the parameters of all models of path loss and fading, within and beyond their usual values.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <variant>
 
 #include "netsim/config/medium_config.hpp"
 #include "netsim/kernel/random.hpp"
 
 namespace netsim::test {
 
-// All except the name and the coherence times, for any model.
+// Where the default says too little about usual values.
+struct UsualRange {
+    std::string_view field;
+    double low;
+    double high;
+};
+inline constexpr UsualRange usual_ranges[] = {
+    {"system_loss", 1, 100}, {"breakpoint_distance_m", 0.5, 500}, {"epsilon_r", 1, 20}, {"sigma_db", 0, 10},
+    {"k_db", -20, 30},       {"shape_factor", 0.5, 50},
+};
+
+// A fifth of the numbers have their default. Those without a usual range are up to 10 dB, or a factor of 2, from it.
+inline void draw_field(const Field& field, MediumConfig& config, RandomStream& draws) {
+    static const MediumConfig defaults;
+    const Member member = field.of(&config);
+    if (auto* const* flag = std::get_if<bool*>(&member)) {
+        **flag = draws.uniform() < 0.2;
+    } else if (auto* const* name = std::get_if<std::string*>(&member)) {
+        **name = field.type.names[draws.uniform_int(static_cast<std::uint32_t>(field.type.names.size()))];
+    } else {
+        const double value = *std::get<const double*>(field.of(static_cast<const void*>(&defaults)));
+        const auto* const usual = std::ranges::find(usual_ranges, field.name, &UsualRange::field);
+        const bool is_usual = usual != std::end(usual_ranges);
+        const double spread = field.type.unit == "dB" ? 10 : value / 2;
+        const double low = is_usual ? usual->low : std::max(value - spread, field.type.least);
+        const double high = is_usual ? usual->high : std::min(value + 2 * spread, field.type.most);
+        const double drawn = low > 0 && high > 10 * low ? low * std::pow(high / low, draws.uniform())
+                                                        : low + draws.uniform() * (high - low);
+        *std::get<double*>(member) = draws.uniform() < 0.2 ? value : drawn;
+    }
+}
+
+// All except the name and the coherence times.
 inline void draw_path_loss_parameters(MediumConfig& config, RandomStream& draws) {
-    const auto between = [&draws](double low, double high) { return low + draws.uniform() * (high - low); };
-    const auto log_between = [&draws](double low, double high) {
-        return low * std::pow(high / low, draws.uniform());
-    };
-    const auto chance = [&draws](double share) { return draws.uniform() < share; };
-    config.alpha = chance(0.3) ? 2 : between(1.5, 4);
-    config.system_loss = chance(0.5) ? 1 : log_between(1, 100);
-    config.breakpoint_distance_m = log_between(0.5, 500);
-    config.l01_db = between(30, 50);
-    config.alpha1 = between(1.5, 4);
-    // The two laws meet, or there is a step up or down.
-    config.l02_db = config.l01_db + 10 * config.alpha1 * std::log10(config.breakpoint_distance_m) +
-                    (chance(0.3) ? 0 : between(-6, 6));
-    config.alpha2 = between(1.5, 5);
-    config.epsilon_r = chance(0.1) ? 1 : log_between(1, 20);
-    config.polarization = std::string(polarization_names[draws.uniform_int(2)]);
-    config.inet_vertical_sign = chance(0.2);
-    config.sigma_db = chance(0.1) ? 0 : between(0, 10);
-    config.k_db = between(-20, 30);
-    config.shape_factor = chance(0.2) ? 1 : log_between(0.5, 50);
-    config.shadowing_standard_deviation_db = chance(0.5) ? 0 : between(0, 10);
+    for (const Field& field : MediumConfig::schema.fields) {
+        if (MediumConfig::schema.family(field).chosen_by == by_path_loss.chosen_by &&
+            field.name != "coherence_time_s") {
+            draw_field(field, config, draws);
+        }
+    }
+    if (draws.uniform() < 0.3) {  // the two laws meet; otherwise there is a step up or down
+        config.l02_db = config.l01_db + 10 * config.alpha1 * std::log10(config.breakpoint_distance_m);
+    }
+    config.shadowing_standard_deviation_db = draws.uniform() < 0.5 ? 0 : 10 * draws.uniform();
 }
 
 }  // namespace netsim::test

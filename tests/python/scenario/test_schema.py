@@ -9,7 +9,7 @@ from gradysim.scenario.schema import engine_keys
 
 _netsim = pytest.importorskip("gradysim._netsim")
 
-WRITER = Path(__file__).parents[3] / "cpp" / "proxy_protocol" / "write_schema.py"
+WRITER = Path(__file__).parents[3] / "cpp" / "schema" / "write_schema.py"
 
 
 @pytest.fixture(scope="module")

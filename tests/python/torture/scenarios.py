@@ -5,17 +5,10 @@ from random import Random
 
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
+from gradysim.scenario.keys import engine_key
 
-PATH_LOSSES = (
-    "FreeSpacePathLoss",
-    "BreakpointPathLoss",
-    "TwoRayGroundReflection",
-    "LogNormalShadowing",
-    "RayleighFading",
-    "RicianFading",
-    "NakagamiFading",
-)
-RATE_CONTROLS = ("", "ArfRateControl", "AarfRateControl", "MinstrelRateControl")
+PATH_LOSSES = engine_key("medium.path_loss").kind.names
+RATE_CONTROLS = engine_key("mac.rate_control").kind.names
 ANTENNAS = ("IsotropicAntenna", "DipoleAntenna")
 
 

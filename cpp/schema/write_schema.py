@@ -2,23 +2,32 @@
 
     make schema
 
-Run it after changing a declaration in cpp/netsim/config. A test fails while the files are stale.
+Run it after changing a declaration in cpp/netsim/config, the only directory that it compiles. A test fails
+while the files are stale.
 """
 
 import json
+import subprocess
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from gradysim import _netsim
-
-PACKAGE = Path(__file__).parents[2] / "python" / "gradysim"
+CPP = Path(__file__).parents[1]
+PROGRAM = CPP.parent / "build" / "schema" / "netsim_schema"
+PACKAGE = CPP.parent / "python" / "gradysim"
 SCHEMA = PACKAGE / "scenario" / "schema.json"
 STUB = PACKAGE / "_netsim_fields.pyi"
 
 FIXED_TYPES = ("medium", "interface")
 """Structs whose type sets the defaults of other fields, and is read-only."""
+
+
+def declarations() -> list[dict[str, Any]]:
+    """Return the declarations of all fields, from a program that is compiled for it."""
+    for step in ["--preset=schema"], ["--build", "--preset=schema"]:
+        subprocess.run(["cmake", *step], cwd=CPP, check=True, stdout=subprocess.DEVNULL)
+    return json.loads(subprocess.run([PROGRAM], check=True, stdout=subprocess.PIPE).stdout)
 
 
 def schema_text(rows: Sequence[Mapping[str, Any]]) -> str:
@@ -65,6 +74,6 @@ def _docstring(meaning: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    rows = _netsim.schema()
+    rows = declarations()
     SCHEMA.write_text(schema_text(rows), encoding="utf-8")
     STUB.write_text(stub_text(rows), encoding="utf-8")
