@@ -2,11 +2,11 @@
 
 import contextlib
 import io
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import gradysim.integrated.run  # noqa: F401 (before processes are forked)
 from gradysim.ladder.callbacks import CallbackLog
@@ -27,10 +27,21 @@ from gradysim.stepping import start
 Effects = frozenset[str]
 """Names of the levels whose effects a run has."""
 
+_Result = TypeVar("_Result")
+
 _LAST_WITHOUT_NOISE = "interference"
 
 _MOST_NUMBERS = 500
 """Of a run that are passed between processes and kept: what a process returns has to fit into a pipe."""
+
+
+def submitted(executor: Executor | None, call: Callable[..., _Result], *arguments: Any) -> Future[_Result]:
+    """Submit a call. Without an executor, this process executes it at once."""
+    if executor is not None:
+        return executor.submit(call, *arguments)
+    future: Future[_Result] = Future()
+    future.set_result(call(*arguments))
+    return future
 
 
 class Campaign:
@@ -128,15 +139,14 @@ class Campaign:
         for place in places:
             scenario = self.scenario(effects, place)
             seen = None if self._kept is None else self._kept.find(scenario, jitter, quantities)
-            if seen is None and executor is not None:
-                futures.append(executor.submit(self.observe, effects, place, jitter, quantities))
-            else:
-                futures.append(Future())
-                futures[-1].set_result(seen or self.observe(effects, place, jitter, quantities))
             if seen is None:
-                futures[-1].add_done_callback(partial(self._done, scenario, jitter))
+                future = submitted(executor, self.observe, effects, place, jitter, quantities)
+                future.add_done_callback(partial(self._done, scenario, jitter))
             else:
+                future = Future()
+                future.set_result(seen)
                 self.kept_count += 1
+            futures.append(future)
         return self._results(futures, quantities)
 
     def _done(self, scenario: Scenario, jitter: Jitter | None, future: Future[Observation]) -> None:

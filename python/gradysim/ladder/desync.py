@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from gradysim.integrated.native_protocols import is_native
-from gradysim.ladder.campaign import Campaign
+from gradysim.ladder.campaign import Campaign, submitted
 from gradysim.ladder.clashes import LOST_TO_OTHERS, Diagnosis, Pattern, diagnose, merged
 from gradysim.ladder.failure import Failure
 from gradysim.ladder.jitter import Jitter
@@ -134,11 +134,7 @@ def _diagnosed(campaign: Campaign, executor: Executor | None) -> tuple[Diagnosis
     futures: list[Future[tuple[Diagnosis, Failure | None]]] = []
     for place in range(len(campaign)):
         campaign.scenario(campaign.all_effects, place)  # processes that are forked have it
-        if executor is not None:
-            futures.append(executor.submit(_diagnosis, campaign, place))
-        else:
-            futures.append(Future())
-            futures[-1].set_result(_diagnosis(campaign, place))
+        futures.append(submitted(executor, _diagnosis, campaign, place))
     diagnoses: list[Diagnosis] = []
     failures: dict[int, Failure] = {}
     for place, future in enumerate(futures):

@@ -4,12 +4,11 @@ from collections import Counter
 from collections.abc import Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from gradysim.ladder.campaign import Campaign, Effects
+from gradysim.ladder.campaign import Campaign, Effects, submitted
 from gradysim.ladder.clashes import Diagnosis, diagnose
 from gradysim.ladder.difference import Difference, first_difference
 from gradysim.ladder.observation import LOST_MESSAGES
@@ -56,15 +55,12 @@ def record_and_explain(
     """
     with TemporaryDirectory() as folder:
         rests = [Path(folder, name) for name in ("works", "fails")]
-        calls = [
-            partial(record_to_files, campaign, *arguments)
+        recorded = [
+            submitted(executor, record_to_files, campaign, *arguments)
             for arguments in zip(effects, (place, place), files, rests, strict=True)
         ]
-        for done in [executor.submit(call) for call in calls] if executor is not None else ():
-            done.result()
-        if executor is None:
-            for call in calls:
-                call()
+        for each in recorded:
+            each.result()
         return explain(*map(read_recording, files, rests))
 
 

@@ -14,7 +14,7 @@ import struct
 import sys
 import zlib
 from array import array
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import accumulate
 from typing import Any, TypeAlias, TypedDict
@@ -91,6 +91,10 @@ class Chunk:
     end_ns: int
     strings: list[str]
     tables: dict[str, dict[str, Values]] = field(default_factory=dict)
+
+    def rows(self, table: str, *columns: str) -> Iterator[tuple[Any, ...]]:
+        """Yield the rows of some columns of a table."""
+        return zip(*(self.tables[table][column] for column in columns), strict=True)
 
     def messages(self) -> list[str]:
         """Return the beginnings of the messages, by the values of the column `text` of frames."""

@@ -156,8 +156,7 @@ def losses_of(chunk: Chunk) -> Iterator[Loss]:
 def _by_reception(chunk: Chunk, table: str, *columns: str) -> dict[tuple[int, int], list[Any]]:
     """Return {(frame, receiver): rows of the columns}."""
     found: dict[tuple[int, int], list[Any]] = {}
-    rows = (chunk.tables[table][column] for column in ("frame", "receiver", *columns))
-    for frame, receiver, *values in zip(*rows, strict=True):
+    for frame, receiver, *values in chunk.rows(table, "frame", "receiver", *columns):
         found.setdefault((frame, receiver), []).append(tuple(values))
     return found
 

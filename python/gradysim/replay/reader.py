@@ -67,36 +67,29 @@ class Replay:
         columns: dict[str, Any] = {}
         for column in TABLES[name]:
             parts: Any = [] if _is_text(name, column.name) else array(_type(self.chunks, name, column.name))
-            frames = 0
-            for chunk in self.chunks:
+            for first, chunk in self._numbered():
                 values = chunk.tables[name][column.name]
                 if _is_text(name, column.name):
                     is_message = (name, column.name) == ("frames", "text")
                     texts = chunk.messages() if is_message else chunk.strings
                     parts.extend("" if index == TEXT_LEFT_OUT else texts[index] for index in values)
                 elif column.name == "frame":
-                    parts.extend(frames + frame for frame in values)
+                    parts.extend(first + frame for frame in values)
                 else:
                     parts.extend(values)
-                frames += len(chunk.tables["frames"]["node"])
             columns[column.name] = parts
         return columns
 
     def receptions(self) -> Iterator[Reception]:
         """Yield each reception that was noticed or lost, by frame, then by receiver."""
-        first = 0
-        for chunk in self.chunks:
-            for frame, receiver, outcome in receptions_of(chunk):
-                yield Reception(first + frame, receiver, OUTCOMES[outcome])
-            first += len(chunk.tables["frames"]["node"])
+        for frame, receiver, outcome in self._reception_rows():
+            yield Reception(frame, receiver, OUTCOMES[outcome])
 
     def losses(self) -> Iterator[Loss]:
         """Yield why frames were lost, by frame: below the sensitivity, to noise or to interference."""
-        first = 0
-        for chunk in self.chunks:
+        for first, chunk in self._numbered():
             for loss in losses_of(chunk):
                 yield replace(loss, frame=first + loss.frame)
-            first += len(chunk.tables["frames"]["node"])
 
     def outcomes(self) -> dict[str, int]:
         """Count the receptions by outcome, as in the result of the run, without `in_air`."""
@@ -121,14 +114,23 @@ class Replay:
 
     def _all_receptions(self) -> dict[str, Any]:
         frames, receivers, outcomes = array("I"), array("I"), array("B")
+        for frame, receiver, outcome in self._reception_rows():
+            frames.append(frame)
+            receivers.append(receiver)
+            outcomes.append(outcome)
+        return {"frame": frames, "receiver": receivers, "outcome": outcomes}
+
+    def _reception_rows(self) -> Iterator[tuple[int, int, int]]:
+        for first, chunk in self._numbered():
+            for frame, receiver, outcome in receptions_of(chunk):
+                yield first + frame, receiver, outcome
+
+    def _numbered(self) -> Iterator[tuple[int, Chunk]]:
+        """Yield the number of the first frame of each chunk, and the chunk."""
         first = 0
         for chunk in self.chunks:
-            for frame, receiver, outcome in receptions_of(chunk):
-                frames.append(first + frame)
-                receivers.append(receiver)
-                outcomes.append(outcome)
+            yield first, chunk
             first += len(chunk.tables["frames"]["node"])
-        return {"frame": frames, "receiver": receivers, "outcome": outcomes}
 
 
 def read_replay(path: str | Path) -> Replay:

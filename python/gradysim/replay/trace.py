@@ -96,12 +96,10 @@ class Trace:
         self._lines.sort(key=lambda line: line[:3])
         due = [line for line in self._lines if line.time_ns <= until_ns]
         del self._lines[: len(due)]
-        texts = [
-            text_line(
-                line.time_ns / 1e9, self._names[line.node], line.event, _printable(line.details), self._width
-            )
-            for line in due
-        ]
+        texts = (
+            text_line(time_ns / 1e9, self._names[node], event, _printable(details), self._width)
+            for time_ns, _, _, node, event, details in due
+        )
         try:
             print("".join(f"{text}\n" for text in texts), end="", flush=True)
         except BrokenPipeError:  # the run continues; the command reports it
@@ -135,20 +133,13 @@ class Trace:
             for receiver, outcome in outcomes[frame].items():
                 if receiver not in self._nodes:
                     continue
-                overheard = (
-                    f" to {self._names[destination]}" if destination not in (BROADCAST, receiver) else ""
-                )
-                details = f"{name} from {source}{overheard}: {OUTCOMES[outcome]}"
+                is_overheard = destination not in (BROADCAST, receiver)
+                to = f" to {self._names[destination]}" if is_overheard else ""
+                details = f"{name} from {source}{to}: {OUTCOMES[outcome]}"
                 if (loss := losses.get((frame, receiver))) is not None:
                     details += f", {loss.words(self._names, self._obstacles, sender)}".removesuffix(", ")
-                yield _Line(
-                    start_ns + duration_ns,
-                    _RECEPTION if duration_ns else rank,
-                    number,
-                    receiver,
-                    "rx",
-                    details,
-                )
+                end_ns, end_rank = start_ns + duration_ns, _RECEPTION if duration_ns else rank
+                yield _Line(end_ns, end_rank, number, receiver, "rx", details)
         self._frames += len(frames["node"])
 
     def _sent(self, chunk: Chunk, frame: int, outcomes: Mapping[int, int]) -> str:
@@ -158,9 +149,8 @@ class Trace:
         bitrate_bps, cause = frames["bitrate_bps"][frame], chunk.strings[frames["cause"][frame]]
         if destination == BROADCAST:
             delivered = list(outcomes.values()).count(OUTCOMES.index("delivered"))
-            outcome = (
-                f"delivered at {delivered} of {frames['receptions'][frame] + frames['unnoticed'][frame]}"
-            )
+            receivers = frames["receptions"][frame] + frames["unnoticed"][frame]
+            outcome = f"delivered at {delivered} of {receivers}"
         else:
             outcome = OUTCOMES[outcomes[destination]] if destination in outcomes else "below_sensitivity"
         parts = [outcome, f"{frames['bytes'][frame]} B"]
@@ -170,16 +160,13 @@ class Trace:
         return f"{to}: {', '.join(parts)}"
 
     def _lines_of_events(self, chunk: Chunk) -> Iterator[_Line]:
-        events, variables = chunk.tables["events"], chunk.tables["variables"]
-        rows = zip(*(events[column] for column in ("time_ns", "node", "kind", "text")), strict=True)
+        rows = chunk.rows("events", "time_ns", "node", "kind", "text")
         for row, (time_ns, node, kind, text) in enumerate(rows):
             event = EVENT_KINDS[kind]
             if node in self._nodes and event in _TRACED_EVENTS:  # log lines are on standard error
                 rank = _TIMER if event == "timer" else _COMMAND
                 yield _Line(time_ns, rank, row, node, event, chunk.strings[text])
-        rows = zip(
-            *(variables[column] for column in ("time_ns", "node", "name", "value", "text")), strict=True
-        )
+        rows = chunk.rows("variables", "time_ns", "node", "name", "value", "text")
         for row, (time_ns, node, name, number, text) in enumerate(rows):
             variable = chunk.strings[name]
             value = chunk.strings[text] if math.isnan(number) and text else f"{readable_number(number):.12g}"
