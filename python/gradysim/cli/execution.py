@@ -4,29 +4,30 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol, TextIO
+from typing import Protocol, TextIO
 
+from rich.console import Console
+
+from gradysim.cli.console import console
 from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK, print_failure
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import limited
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import captures_under_way, ids_of_fates, log_level, nodes_of_vectors, replay_sink
 from gradysim.cli.progress import RunProgress, waiting
+from gradysim.cli.summary import print_summary, run_line
 from gradysim.integrated.compiled_part import CompiledPartMissingError
+from gradysim.replay.sink import OutputError
+from gradysim.results.result import RunResult
 from gradysim.scenario.errors import ConfigError
-
-if TYPE_CHECKING:
-    from rich.console import Console
-
-    from gradysim.results.result import RunResult
-    from gradysim.scenario.lint import Finding
-    from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.lint import Finding
+from gradysim.scenario.scenario import Scenario, check_node_names
 
 
 class Check(Protocol):
     """Validates a scenario. ConfigError names what is invalid."""
 
-    def __call__(self, scenario: "Scenario", *, is_built_next: bool) -> None:
+    def __call__(self, scenario: Scenario, *, is_built_next: bool) -> None:
         """Validate a scenario.
 
         With `is_built_next`, skip the checks of the build, which checks the network.
@@ -43,10 +44,10 @@ class Run(Protocol):
     ) -> None:
         """Run to the end. Exceptions of protocols are raised."""
 
-    def result(self) -> "RunResult":
+    def result(self) -> RunResult:
         """Return the results so far."""
 
-    def findings(self) -> "list[Finding]":
+    def findings(self) -> list[Finding]:
         """Return the findings of lint checks of the protocols so far."""
 
     @property
@@ -67,10 +68,10 @@ class Outcome:
         lacks_output: Whether a capture or a replay lacks its end.
     """
 
-    result: "RunResult | None"
+    result: RunResult | None
     failure: BaseException | None = None
     interrupted: bool = False
-    findings: "Sequence[Finding]" = ()
+    findings: Sequence[Finding] = ()
     lacks_output: bool = False
 
     @staticmethod
@@ -81,10 +82,10 @@ class Outcome:
 
 
 def execute(
-    build: "Callable[[Scenario], Run]",
-    scenario: "Scenario",
+    build: Callable[[Scenario], Run],
+    scenario: Scenario,
     interrupt: StopOnInterrupt,
-    terminal: "Console | None",
+    terminal: Console | None,
     memory_bytes: int | None = None,
 ) -> Outcome:
     """Build and execute a run, with a progress bar on a terminal and a memory limit.
@@ -121,7 +122,7 @@ def execute(
 
 def report(
     outcome: Outcome,
-    write: "Callable[[RunResult, bool], Iterable[str]]",
+    write: Callable[[RunResult, bool], Iterable[str]],
     options: RunOptions,
     which: str | None = None,
 ) -> tuple[int, OSError | None]:
@@ -164,21 +165,16 @@ def report(
 
 def _code_of(failure: BaseException | None) -> int:
     """Return the exit code of a run that was not interrupted."""
-    from gradysim.replay.sink import OutputError
-
     if failure is None:
         return OK
     return MISTAKE if isinstance(failure, OutputError) else FAILED
 
 
-def show(result: "RunResult", output: TextIO, options: RunOptions, which: str | None) -> None:
+def show(result: RunResult, output: TextIO, options: RunOptions, which: str | None) -> None:
     """Print a result: a line of JSON, a line of text if it is one of several runs, or the summary."""
     if options.as_json:
         print(json.dumps(result.to_json_object()), file=output)
         return
-    from gradysim.cli.console import console
-    from gradysim.cli.summary import print_summary, run_line
-
     if which is not None:
         print(run_line(result, which, console(output).width), file=output)
         return
@@ -186,7 +182,7 @@ def show(result: "RunResult", output: TextIO, options: RunOptions, which: str | 
     print(file=output)
 
 
-def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
+def simulator(options: RunOptions) -> tuple[Check, Callable[[Scenario], Run]]:
     """Return the functions that check a scenario and build its run. The other mode is not imported.
 
     Raises ConfigError for options that need frames in a mode without frames.
@@ -198,10 +194,10 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
         require_no_names("--pcap", options.pcap, "no frames to capture")
         require_no_names("--fates-at", options.fates_at, "no outcomes of frames")
 
-        def check_all(scenario: "Scenario", *, is_built_next: bool) -> None:
+        def check_all(scenario: Scenario, *, is_built_next: bool) -> None:
             check_scenario(scenario)
 
-        def build_prototype(scenario: "Scenario") -> "Run":
+        def build_prototype(scenario: Scenario) -> Run:
             return PrototypeRun(
                 scenario,
                 vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
@@ -214,11 +210,11 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
     from gradysim.integrated.network import check_scenario as check_network
     from gradysim.integrated.run import IntegratedRun
 
-    def check(scenario: "Scenario", *, is_built_next: bool) -> None:
+    def check(scenario: Scenario, *, is_built_next: bool) -> None:
         if not is_built_next:
             check_network(scenario)
 
-    def build(scenario: "Scenario") -> "Run":
+    def build(scenario: Scenario) -> Run:
         return IntegratedRun(
             scenario,
             captures_under_way(scenario, options),
@@ -233,19 +229,15 @@ def simulator(options: RunOptions) -> "tuple[Check, Callable[[Scenario], Run]]":
 
 def require_no_names(option: str, names: Iterable[str], reason: str) -> None:
     """Raise ConfigError if an option that prototype mode does not support has names of nodes."""
-    from gradysim.scenario.errors import ConfigError
-
     for name in names:
         raise ConfigError(f"{option} {name}: prototype mode has {reason}; expected --mode integrated")
 
 
-def check_names(scenarios: "Sequence[Scenario]", options: RunOptions, run_count: int) -> None:
+def check_names(scenarios: Sequence[Scenario], options: RunOptions, run_count: int) -> None:
     """Raise ConfigError for a name in an option that no node of `run_count` runs has.
 
     `scenarios` are runs that have all nodes.
     """
-    from gradysim.scenario.scenario import check_node_names
-
     for option, names in (
         ("--pcap", options.pcap),
         ("--fates-at", options.fates_at),

@@ -10,7 +10,7 @@ from gradysim.cli.options import RunOptions
 from gradysim.results.confidence_interval import Estimate, estimate
 from gradysim.results.files import read_run_file, run_file
 from gradysim.results.run_summary import RunSummary
-from gradysim.scenario.errors import ConfigError, nearest
+from gradysim.scenario.errors import ConfigError, unknown_name
 from gradysim.scenario.load import Study
 from gradysim.scenario.sweep import text_of_iterations
 
@@ -116,11 +116,9 @@ class _Numbers:
         file = run_file(options.directory, study.config, study.numbers[place], options.mode)
         summary = RunSummary.of(read_run_file(file), file)
         if not self._numbers and self._until.quantity not in summary.numbers:
-            raise ConfigError(
-                f"--until {self._until.text}: no quantity is called `{self._until.quantity}`",
-                expected=f"one of {', '.join(summary.numbers)}",
-                suggestion=nearest(self._until.quantity, summary.numbers),
-            )
+            quantity = self._until.quantity
+            problem = f"--until {self._until.text}: no quantity is called `{quantity}`"
+            raise unknown_name(problem, quantity, summary.numbers)
         return summary
 
 

@@ -18,7 +18,7 @@ from gradysim.ladder.observation import Observation, losses_of, messages_of
 from gradysim.ladder.reach import power_settings, range_settings
 from gradysim.replay.sink import ReplayWriter
 from gradysim.results.run_summary import RunSummary
-from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, nearest
+from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, unknown_name
 from gradysim.scenario.ini import read_ini
 from gradysim.scenario.load import Study
 from gradysim.scenario.scenario import Scenario
@@ -169,11 +169,7 @@ class Campaign:
             known.update(seen.numbers)
             unknown = next((name for name in quantities if name not in known), None)
             if seen.numbers and unknown is not None:
-                raise ConfigError(
-                    f"no quantity is called `{unknown}`",
-                    expected=f"one of {', '.join(f'`{name}`' for name in sorted(known))}",
-                    suggestion=nearest(unknown, known),
-                )
+                raise unknown_name(f"no quantity is called `{unknown}`", unknown, sorted(known))
             yield seen
 
     def record(self, effects: Effects, place: int, path: Path, log: CallbackLog | None = None) -> Observation:
