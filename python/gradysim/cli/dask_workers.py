@@ -78,6 +78,7 @@ def dask_workers(command: Command) -> Iterator[ExecutorWorkers]:
 
     try:
         import distributed
+        from dask import config
     except ImportError as error:
         raise ConfigError(
             f"--executor dask: {error}; expected the package distributed: pip install distributed"
@@ -92,6 +93,8 @@ def dask_workers(command: Command) -> Iterator[ExecutorWorkers]:
         name = f"--scheduler {where}"
         if where is None:
             name = "--executor dask"
+            # Its profiler takes a tenth of a core, and nobody could read what it finds.
+            connection.enter_context(config.set({"distributed.worker.profile.enabled": False}))
             where = connection.enter_context(
                 dask.LocalCluster(
                     n_workers=options.jobs,
