@@ -30,7 +30,7 @@ node_packages := viewer/node_modules/.package-lock.json
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture lint lint-python lint-cpp lint-viewer lint-files format build verify bench figures pictures schema fingerprints golden pages docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
+.PHONY: help demo test test-cpp test-python test-slow test-threads test-binding coverage fuzz torture mutants lint lint-python lint-cpp lint-viewer lint-files format build verify bench figures pictures schema fingerprints golden pages docs wheels hashes release clean distclean system-gtest system-benchmark system-ns3 need-ns3 system-tshark system-clang system-npm system-chromium system-qemu viewer test-viewer again
 
 help:  ## List the commands.
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1\t\2/p' $(MAKEFILE_LIST) | expand -t 20
@@ -80,6 +80,9 @@ fuzz: $(STAMPS)/build system-clang  ## Search for scenarios that break the engin
 
 torture: build $(STAMPS)/test  ## Kill, interrupt, mutate and attack runs, MINUTES=20 long; prints what was lost.
 	cd tests && "$(CURDIR)/$(BIN)/python" -m python.torture $(MINUTES)
+
+mutants: build $(STAMPS)/test  ## Change the package at 50 random places, one by one, and report how many changes the tests notice (2 h).
+	cd tests && "$(CURDIR)/$(BIN)/python" -m python.mutants $(or $(COUNT),50)
 
 lint: lint-python lint-cpp lint-viewer lint-files docs  ## All checks of style, types, layers and links: Python, C++, TypeScript, files of the repository, pages.
 
