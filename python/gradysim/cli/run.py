@@ -6,12 +6,19 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
 from contextlib import ExitStack, nullcontext, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from rich.console import Console
+
+from gradysim.cli.dask_workers import dask_workers
 from gradysim.cli.earlier_results import runs_to_do
 from gradysim.cli.errors import INTERRUPTED, OK, report_crashes, say_mistake
+from gradysim.cli.execution import Run, check_names, simulator
+from gradysim.cli.executor import RunExecutor, Workers
+from gradysim.cli.interrupt import KILLING, StopOnInterrupt
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import FileArgument, RunOptions, option_value
 from gradysim.cli.output import (
@@ -20,21 +27,20 @@ from gradysim.cli.output import (
     check_sqlite,
     make_result_dir,
 )
+from gradysim.cli.progress import waiting
+from gradysim.cli.run_all import run_all
+from gradysim.cli.run_task import Command, RunTask, import_what_runs_use
 from gradysim.cli.runs import check, findings_of, tell, warnings_of_seeds
 from gradysim.cli.share import part_of_share
 from gradysim.cli.until import Until, checked_until, rounds_of
-
-if TYPE_CHECKING:
-    from concurrent.futures import Executor
-
-    from rich.console import Console
-
-    from gradysim.cli.execution import Run
-    from gradysim.cli.executor import RunExecutor, Workers
-    from gradysim.cli.run_task import Command
-    from gradysim.scenario.load import Study
-    from gradysim.scenario.scenario import Scenario
-
+from gradysim.cli.workers import ExecutorWorkers, ForkedWorkers
+from gradysim.encapsulator.run_context import gc_paused
+from gradysim.execution.run_lock import remove_left_over_files, remove_lock_file
+from gradysim.integrated.compiled_part import CompiledPartMissingError
+from gradysim.scenario.errors import ConfigError, ErrorCollector
+from gradysim.scenario.load import Study
+from gradysim.scenario.parameter_types import quantity
+from gradysim.scenario.scenario import Scenario
 
 DEFAULTS = RunOptions()
 
@@ -44,8 +50,6 @@ _LONGEST_S = 366 * 86400
 
 def run(file: FileArgument, /, *, options: RunOptions = DEFAULTS) -> int:
     """Carry out `gradysim run`, and return the exit code."""
-    from gradysim.encapsulator.run_context import gc_paused
-
     with gc_paused():  # nothing of what is read is garbage
         return run_file(file, options)
 
@@ -61,14 +65,14 @@ class _Prepared(NamedTuple):
         command: What its processes need.
     """
 
-    study: "Study"
+    study: Study
     left: Sequence[int]
     until: Until | None
-    build: "Callable[[Scenario], Run]"
-    command: "Command"
+    build: Callable[[Scenario], Run]
+    command: Command
 
 
-def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None) -> int:
+def run_file(file: Path, options: RunOptions, executor: Executor | None = None) -> int:
     """Run `gradysim run` and return its exit code.
 
     Args:
@@ -77,12 +81,6 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         executor: Executes batches of runs; the caller shuts it down. Its workers read the file themselves, so
             they need the same directories and packages. By default each run has a process of this machine.
     """
-    from gradysim.cli.dask_workers import dask_workers
-    from gradysim.cli.workers import ExecutorWorkers
-    from gradysim.execution.run_lock import remove_left_over_files
-    from gradysim.integrated.compiled_part import CompiledPartMissingError
-    from gradysim.scenario.errors import ConfigError
-
     begin_s = time.monotonic()
     gc.freeze()  # excludes modules from the open files, which the runner searches
     with ExitStack() as connection:
@@ -104,9 +102,7 @@ def run_file(file: Path, options: RunOptions, executor: "Executor | None" = None
         return _execute(prepared, workers, left_s)
 
 
-def run_study(
-    study: "Study", file: Path, options: RunOptions, on_progress: Callable[[int, int], None]
-) -> int:
+def run_study(study: Study, file: Path, options: RunOptions, on_progress: Callable[[int, int], None]) -> int:
     """Run the runs of a study that was read in this process, for a script, and return the exit code.
 
     Args:
@@ -126,13 +122,8 @@ def run_study(
         gc.unfreeze()
 
 
-def _prepare(file: Path, options: RunOptions, study: "Study | None" = None) -> _Prepared | None:
+def _prepare(file: Path, options: RunOptions, study: Study | None = None) -> _Prepared | None:
     """Read and check the study; None if no run is left. Raises ConfigError and OSError."""
-    from gradysim.cli.execution import check_names, simulator
-    from gradysim.cli.progress import waiting
-    from gradysim.cli.run_task import Command
-    from gradysim.scenario.errors import ConfigError, ErrorCollector
-
     bar = _has_bar(options)
     check_jobs(options.jobs)
     if options.scheduler is not None and options.executor != "dask":
@@ -174,7 +165,7 @@ def _prepare(file: Path, options: RunOptions, study: "Study | None" = None) -> _
 
 def _execute(
     prepared: _Prepared,
-    workers: "Workers | None" = None,
+    workers: Workers | None = None,
     left_s: float | None = None,
     on_progress: Callable[[int, int], None] | None = None,
 ) -> int:
@@ -183,12 +174,6 @@ def _execute(
     `left_s` is the wall time in seconds until the command stops; None for no end. Scripts get `on_progress`,
     which is that of `run_study`.
     """
-    from gradysim.cli.executor import RunExecutor
-    from gradysim.cli.interrupt import KILLING, StopOnInterrupt
-    from gradysim.cli.run_task import RunTask, import_what_runs_use
-    from gradysim.cli.workers import ForkedWorkers
-    from gradysim.execution.run_lock import remove_left_over_files, remove_lock_file
-
     study, _, _, build, command = prepared
     options = command.options
     report_crashes()
@@ -218,12 +203,9 @@ def _execute(
 
 
 def _run_rounds(
-    prepared: _Prepared, executor: "RunExecutor", on_progress: Callable[[int, int], None] | None
+    prepared: _Prepared, executor: RunExecutor, on_progress: Callable[[int, int], None] | None
 ) -> int:
     """Compute the runs that are left, round by round with --until, and return the exit code."""
-    from gradysim.cli.run_all import run_all
-    from gradysim.scenario.errors import ConfigError
-
     study, left, until, _, command = prepared
     try:
         for places in rounds_of(study, left, until, command.options):
@@ -239,21 +221,17 @@ def _has_bar(options: RunOptions) -> bool:
     return not options.quiet and not options.as_json
 
 
-def error_terminal() -> "Console | None":
+def error_terminal() -> Console | None:
     """Return the terminal for a progress bar, if standard error is one."""
     if not sys.stderr.isatty():
         return None
     import rich.progress  # noqa: F401 (before processes are forked)
-    from rich.console import Console
 
     return Console(stderr=True)
 
 
 def checked_duration(text: str | None) -> float | None:
     """Return the time of --stop-after in seconds; None for no limit. Raises ConfigError."""
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.parameter_types import quantity
-
     if text is None:
         return None
     duration_s = float(option_value("--stop-after", text, quantity("s", above=0, at_most=_LONGEST_S)))
@@ -264,8 +242,6 @@ def checked_duration(text: str | None) -> float | None:
 
 def check_jobs(jobs: int) -> None:
     """Raise ConfigError for an invalid number of jobs, before reading files."""
-    from gradysim.scenario.errors import ConfigError
-
     if jobs < 1:
         raise ConfigError(f"--jobs {jobs}: it is out of range; expected 1 or more")
     if jobs > 1 and not hasattr(os, "fork"):

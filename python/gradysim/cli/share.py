@@ -10,6 +10,8 @@ import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from gradysim.scenario.errors import ConfigError
+
 _GIVEN = re.compile(r"(?:auto|(\d{1,9}))(?:/(\d{1,9}))?", re.ASCII)
 
 
@@ -73,8 +75,6 @@ def share_of(given: str, environment: Mapping[str, str]) -> tuple[Share, dict[st
     Raises:
         ConfigError: There is no such share, or the environment does not have what `auto` needs.
     """
-    from gradysim.scenario.errors import ConfigError
-
     match = _GIVEN.fullmatch(given)
     if match is None or (match[1] and not match[2]):
         raise ConfigError(f"--share {given}: expected I/N, such as 0/4, or auto")
@@ -96,8 +96,6 @@ class _Environment:
 
     def share(self, count: int | None) -> tuple[Share, dict[str, str]]:
         """Return the share and the variables; of the processes of mpirun in an array, each has one."""
-        from gradysim.scenario.errors import ConfigError
-
         array = next((each for each in _ARRAYS if self._has(each.index)), None)
         ranks = next((each for each in _RANKS if self._has(each[0])), None)
         if array is None and ranks is None:
@@ -113,8 +111,6 @@ class _Environment:
         return Share((first * rank.count + rank.index) % count, count), self._read
 
     def _task(self, array: _Array) -> Share:
-        from gradysim.scenario.errors import ConfigError
-
         index = self._number(array.index)
         if array.bounds is None:
             raise ConfigError(
@@ -134,8 +130,6 @@ class _Environment:
         return self._variables.get(name, "undefined") != "undefined"  # what Grid Engine sets outside arrays
 
     def _number(self, name: str) -> int:
-        from gradysim.scenario.errors import ConfigError
-
         text = self._variables.get(name, "")
         self._read[name] = text
         try:

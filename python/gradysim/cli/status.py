@@ -12,6 +12,8 @@ from gradysim.cli.errors import INCOMPLETE, OK, say_mistake
 from gradysim.cli.options import DEFAULT_DIR, FileArgument, ResultDir, RunOptions, StatusOptions
 from gradysim.cli.runs import check
 from gradysim.cli.study import check_directory
+from gradysim.scenario.errors import ConfigError
+from gradysim.scenario.runs import text_of_files, text_of_runs
 
 DEFAULTS = StatusOptions()
 
@@ -25,9 +27,6 @@ def print_status(
     options: StatusOptions = DEFAULTS,
 ) -> int:
     """Carry out `gradysim status`, and return the exit code."""
-    from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.runs import text_of_runs
-
     # `status DIR FILE` is an earlier spelling.
     file, directory = (file, result_dir) if earlier is None else (earlier, file)
     found: dict[tuple[State, tuple[str, ...]], list[int]] = defaultdict(list)
@@ -53,8 +52,6 @@ def print_status(
 
 
 def _label(state: State, changed: Sequence[str]) -> str:
-    from gradysim.scenario.runs import text_of_files
-
     return f"older than {text_of_files(changed)}" if changed else state.value
 
 
