@@ -75,7 +75,7 @@ private:
 
     void channel_busy_changed(bool busy) override;
     void frame_received(const Transmission& transmission) override;
-    void frame_corrupted() override {}
+    void frame_corrupted(CorruptedFrame /*frame*/) override {}
     void transmission_ended() override;
 
     void go_on();

@@ -203,12 +203,13 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
     }
 }
 
-void Dcf::frame_corrupted() {
+void Dcf::frame_corrupted(CorruptedFrame frame) {
     last_frame_was_broken_ = true;
-    if (!radio_.has_lost_header()) {
+    others_are_weak_ = frame.others_are_weak;
+    if (!frame.header_lost) {
         keep_nav();
     }
-    if (!radio_.has_lost_header() || !parameters_.config.ns3_eifs) {
+    if (!frame.header_lost || !parameters_.config.ns3_eifs) {
         contention_.frame_corrupted();
     }
     radio_.report_channel();  // EIFS begins when the channel is free
@@ -283,7 +284,7 @@ bool Dcf::set_nav(SimTime duration) {
     nav_end_ = end;
     nav_sequence_number_ = simulator().reserve_sequence_numbers(1);
     simulator().cancel(nav_event_);
-    if (watches_channel_) {
+    if (radio_.watches_channel()) {
         await_end_of_nav();
         update_contention();
     }
@@ -309,7 +310,7 @@ void Dcf::reset_nav() {
     }
     nav_end_ = simulator().now();
     simulator().cancel(nav_event_);
-    if (watches_channel_) {
+    if (radio_.watches_channel()) {
         update_contention();
     }
 }
@@ -329,7 +330,8 @@ void Dcf::await_end_of_nav() {
 
 void Dcf::channel_busy_changed(bool busy) {
     if (!busy) {
-        if (contention_.awaits_end_of_broken_frame() && !watches_channel_ && !radio_.are_others_weak()) {
+        const bool others_are_weak = std::exchange(others_are_weak_, false);
+        if (contention_.awaits_end_of_broken_frame() && !radio_.watches_channel() && !others_are_weak) {
             watch_channel(simulator().now());
             if (radio_.is_channel_busy()) {
                 return;
@@ -338,15 +340,14 @@ void Dcf::channel_busy_changed(bool busy) {
         contention_.radio_finds_it_free();
         stop_watching_channel();
     }
-    if (watches_channel_) {
+    if (radio_.watches_channel()) {
         update_contention();
     }
 }
 
 // Frames that the radio did not report may have made the channel busy since it was last watched.
 void Dcf::watch_channel(SimTime since) {
-    if (!watches_channel_) {
-        watches_channel_ = true;
+    if (!radio_.watches_channel()) {
         const SimTime radio_free_since = radio_.watch_channel(since);
         contention_.channel_found(is_channel_busy(), std::max(radio_free_since, nav_end_));
         if (is_nav_set()) {
@@ -356,11 +357,10 @@ void Dcf::watch_channel(SimTime since) {
 }
 
 void Dcf::stop_watching_channel() {
-    if (watches_channel_) {  // otherwise the queue is empty
+    if (radio_.watches_channel()) {  // otherwise the queue is empty
         if (!queue_.empty() || contention_.in_progress()) {
             return;
         }
-        watches_channel_ = false;
         simulator().cancel(nav_event_);
     }
     radio_.stop_watching_channel();

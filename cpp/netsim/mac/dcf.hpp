@@ -79,7 +79,7 @@ private:
 
     void channel_busy_changed(bool busy) override;
     void frame_received(const Transmission& transmission) override;
-    void frame_corrupted() override;
+    void frame_corrupted(CorruptedFrame frame) override;
     void transmission_ended() override;
     void prefetch_for_corrupted_frame() const override { netsim::prefetch(contention_); }
     void channel_granted() override;
@@ -125,7 +125,7 @@ private:
     const DcfParameters& parameters_;
     Radio& radio_;
     SimTime nav_end_ = SimTime::long_ago();
-    bool watches_channel_ = false;  // and notifies contention
+    bool others_are_weak_ = false;  // of a corrupted frame, until its end frees the channel
     // Contention is notified of a correct frame only if this is set, since it is in another cache line.
     bool last_frame_was_broken_ = false;
     bool awaits_frame_after_rts_ = false;  // nav_reset_ is pending

@@ -24,7 +24,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     give_up_reception();
     transmitting_ = true;
     turned_ = false;
-    if (watches_energy_ && may_ignore_energy()) {  // while it transmits, its channel is busy anyway
+    if (watches_channel() && may_ignore_energy()) {  // while it transmits, its channel is busy anyway
         medium().stop_watching_energy(id_);
     }
     Transmission transmission;
@@ -63,7 +63,7 @@ void Radio::give_up_reception() {
 
 void Radio::transmission_over() {
     listener_->transmission_ended();
-    if (watches_energy_ && may_ignore_energy()) {  // before its channel could be found free
+    if (watches_channel() && may_ignore_energy()) {  // before its channel could be found free
         medium().watch_energy(id_, simulator().now());
     }
     transmitting_ = false;
@@ -81,7 +81,7 @@ void Radio::arrival_started(const Arrival& arrival) {
         } else if (model_.frame_capture.captures(locked_arrival_, arrival)) {
             simulator().cancel(header_end_);
             book(present_.unlock(), FrameFate::captured);
-            listener_->frame_corrupted();
+            listener_->frame_corrupted({});
             begin_reception(arrival);
         } else {
             began_in_header_ = began_in_header_ || is_receiving_header();
@@ -163,9 +163,7 @@ void Radio::end_header() {
     }
     add_to_fingerprint(present_.unlock(), FrameFate::header_error);
     book_loss(locked_arrival_, FrameFate::header_error, interference);
-    has_lost_header_ = true;
-    listener_->frame_corrupted();
-    has_lost_header_ = false;
+    listener_->frame_corrupted({.header_lost = true});
     ignores_energy_ = model_.preamble_detection.frees_channel() && !began_in_header_;
     update_busy();
 }
@@ -197,7 +195,6 @@ void Radio::arrival_ended(const Arrival& arrival) {
 void Radio::end_report() {
     reports_ = false;
     update_busy();
-    others_are_weak_ = false;
 }
 
 void Radio::end_reception(const Arrival& arrival) {
@@ -215,9 +212,8 @@ void Radio::end_reception(const Arrival& arrival) {
         listener_->frame_received(transmission);
     } else {
         book_loss(arrival, fate, interference);
-        others_are_weak_ = model_.reception.noise_w + medium().max_interference_w(arrival) <
-                           model_.energy_detection_w * (1 - 1e-6);
-        listener_->frame_corrupted();
+        const double most_w = model_.reception.noise_w + medium().max_interference_w(arrival);
+        listener_->frame_corrupted({.others_are_weak = most_w < model_.energy_detection_w * (1 - 1e-6)});
     }
 }
 
@@ -355,7 +351,7 @@ void Radio::update_busy() {
         if (!busy) {
             free_since_ = simulator().now();
         }
-        if (reports_channel_) {
+        if (watch_ != ChannelWatch::off) {
             listener_->channel_busy_changed(busy);
         }
     }

@@ -40,6 +40,20 @@
 
 namespace netsim {
 
+// How a frame that a radio was locked on to was lost.
+struct CorruptedFrame {
+    bool header_lost = false;  // the PHY header, before the end of the frame (SNIR by chunks)
+    // The other frames on the air are too weak to make the channel busy together.
+    bool others_are_weak = false;
+};
+
+// What a radio reports of its channel.
+enum class ChannelWatch : std::uint8_t {
+    off,
+    reporting,  // its state, but without frames that make it busy only together
+    watching    // its state
+};
+
 // The side of a MAC that its radio notifies. At the end of a frame, the radio reports the frame
 // first, then the free channel.
 class RadioListener {
@@ -49,7 +63,7 @@ public:
     virtual void frame_received(const Transmission& transmission) = 0;
     // A frame that the radio was locked on to could not be decoded, or was dropped for a stronger
     // one.
-    virtual void frame_corrupted() = 0;
+    virtual void frame_corrupted(CorruptedFrame frame) = 0;
     // The next transmission must not begin within this call.
     virtual void transmission_ended() = 0;
     // frame_corrupted may be called next: prefetches what it reads (kernel/prefetch.hpp).
@@ -89,25 +103,25 @@ public:
     // not need them. Returns when the channel last became free; long ago if it never did. Frames that
     // made it busy only together count only after `since`.
     SimTime watch_channel(SimTime since) {
-        reports_channel_ = true;
-        watches_energy_ = true;
+        watch_ = ChannelWatch::watching;
         return std::max(free_since_, may_ignore_energy() && !transmitting_ ? medium().watch_energy(id_, since)
                                                                            : SimTime::long_ago());
     }
     void stop_watching_channel() {
-        reports_channel_ = false;
-        if (watches_energy_ && may_ignore_energy()) {
+        if (watches_channel() && may_ignore_energy()) {
             medium().stop_watching_energy(id_);
         }
-        watches_energy_ = false;
+        watch_ = ChannelWatch::off;
     }
-    // Reports the channel state again, but without frames that make it busy only together.
-    void report_channel() { reports_channel_ = true; }
+    // Reports the channel state again, if it is not watched, but without frames that make it busy only together.
+    void report_channel() {
+        if (watch_ == ChannelWatch::off) {
+            watch_ = ChannelWatch::reporting;
+        }
+    }
+    bool watches_channel() const { return watch_ == ChannelWatch::watching; }
     // Sets how far back `since` of watch_channel may be.
     void remember_channel(SimTime duration) { medium().remember(duration); }
-    // At the end of a corrupted frame: whether the other frames on the air are too weak to make the
-    // channel busy together.
-    bool are_others_weak() const { return others_are_weak_; }
 
     // The radio will probably send soon (NetworkInterface::prefetch).
     void prefetch(int step) const {
@@ -122,8 +136,6 @@ public:
     bool is_receiving() const { return present_.is_locked(); }
     // The same without the PHY header, where that is decided separately (SNIR by chunks).
     bool is_receiving_data() const { return is_receiving() && !simulator().is_pending(header_end_); }
-    // Within RadioListener::frame_corrupted: whether the PHY header was lost.
-    bool has_lost_header() const { return has_lost_header_; }
     // Whether the radio transmits, is locked on to a frame, or noise and all arrivals together reach
     // the ED threshold.
     bool is_channel_busy() const { return busy_; }
@@ -189,13 +201,10 @@ private:
     bool busy_ : 1 = false;
     bool reports_ : 1 = false;  // while it reports the end of a frame: the channel counts as busy
     bool is_observed_ : 1 = false;
-    bool others_are_weak_ : 1 = false;
-    bool has_lost_header_ : 1 = false;
-    bool reports_channel_ : 1 = true;
     bool ignores_energy_ : 1 = false;   // PreambleDetection::frees_channel
     bool began_in_header_ : 1 = false;  // another frame, while this radio received a header
-    bool watches_energy_ : 1 = true;    // except while it transmits
-    std::uint32_t stream_;              // of its interface (InterfaceId)
+    ChannelWatch watch_ : 2 = ChannelWatch::watching;
+    std::uint32_t stream_;  // of its interface (InterfaceId)
     const RadioModel& model_;
     RadioListener* listener_ = nullptr;
     SimTime free_since_ = SimTime::long_ago();  // when the channel became free, if it is

@@ -182,7 +182,7 @@ private:
         found_it_busy_ = radio_.is_channel_busy();
         reports_ = false;
     }
-    void frame_corrupted() override {}
+    void frame_corrupted(CorruptedFrame) override {}
     void transmission_ended() override {}
 
     Radio& radio_;

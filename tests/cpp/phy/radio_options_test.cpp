@@ -201,6 +201,7 @@ TEST_F(RadioWithChunks, WithoutItsHeaderAFrameIsGivenUpAtOnce) {
     air.run();
     EXPECT_EQ(count(FrameFate::header_error), 1U);
     EXPECT_EQ(receiver().log.times_of(RadioWord::corrupted), std::vector{us(120)});
+    EXPECT_TRUE(receiver().log.corrupted.front().header_lost);
     EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(120)});
 }
 

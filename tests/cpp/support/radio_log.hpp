@@ -28,6 +28,7 @@ public:
 
     std::vector<RadioEvent> events;
     std::vector<NodeId> received_from;
+    std::vector<CorruptedFrame> corrupted;
 
     std::vector<SimTime> times_of(RadioWord word) const {
         std::vector<SimTime> times;
@@ -44,7 +45,10 @@ public:
         received_from.push_back(transmission.sender.node);
         note(RadioWord::received);
     }
-    void frame_corrupted() override { note(RadioWord::corrupted); }
+    void frame_corrupted(CorruptedFrame frame) override {
+        corrupted.push_back(frame);
+        note(RadioWord::corrupted);
+    }
     void transmission_ended() override { note(RadioWord::sent); }
 
 private:
