@@ -4,7 +4,7 @@ from inspect import signature
 
 import pytest
 
-from gradysim.cli.app import calibrate_power
+from gradysim.cli.calibrate import calibrate_power
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
