@@ -5,8 +5,8 @@ They get runs in batches. A task of a cluster costs milliseconds in the schedule
 so that a batch takes a few seconds there. Towards the end batches become smaller: no worker waits for long.
 """
 
-from collections import deque
-from collections.abc import Collection, Iterable, Iterator
+from bisect import bisect_left
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future
 from dataclasses import dataclass
 from typing import Protocol, Self
@@ -16,6 +16,12 @@ from gradysim.cli.interrupt import KILLING, StopOnInterrupt
 
 _OTHERS_GO_ON = {OK, LOCKED, OVER_MEMORY}
 """Exit codes of runs that do not stop the others."""
+
+_MOST_AHEAD = 10_000
+"""Number of runs from the first one under way to the last one that may begin.
+
+Output is printed in order. If the first run hangs, that of the others stays in memory.
+"""
 
 
 class WorkersLostError(Exception):
@@ -113,31 +119,37 @@ class RunExecutor:
         """Let no more run begin."""
         self._is_over = True
 
-    def rows(self, numbers: Iterable[int]) -> Iterator[list[Row]]:
-        """Compute the runs of these numbers, and yield the rows of each batch that has ended.
+    def rows(self, numbers: Sequence[int]) -> Iterator[list[Row]]:
+        """Compute the runs of these numbers, which increase, and yield the rows of each batch that has ended.
 
         A run without a row did not begin, if it is not `under_way`. Raises WorkersLostError, and
         KeyboardInterrupt if no worker can take the Ctrl-C.
         """
-        waiting = deque(numbers)
-        while waiting or self._batches:
+        begun = 0
+        while begun < len(numbers) or self._batches:
             count = self._workers.count()
             if self._is_over or self._interrupt.should_stop():
-                waiting.clear()
+                begun = len(numbers)
                 for batch in self._workers.stop(self._batches, self._interrupt.presses):
                     del self._batches[batch]
                 if not self._batches:
                     return
                 if not count and self._interrupt.should_stop():
                     raise KeyboardInterrupt
-            while waiting and len(self._batches) < count:
-                size = min(self._batch_size(len(waiting), count), len(waiting))
-                batch_numbers = tuple(waiting.popleft() for _ in range(size))
+            end = min(self._first_under_way(numbers, begun) + _MOST_AHEAD, len(numbers))
+            while begun < end and len(self._batches) < count:
+                size = self._batch_size(len(numbers) - begun, count)
+                batch_numbers = tuple(numbers[begun : min(begun + size, end)])
                 self._batches[self._workers.begin(batch_numbers)] = batch_numbers
+                begun += len(batch_numbers)
             self._workers.wait(self._batches)
             for batch in [batch for batch in self._batches if batch.done()]:
                 yield self._rows_of(batch)
                 del self._batches[batch]
+
+    def _first_under_way(self, numbers: Sequence[int], begun: int) -> int:
+        """Return the position of the first run under way, or of the next one to begin."""
+        return next((bisect_left(numbers, batch[0]) for batch in self._batches.values()), begun)
 
     def _batch_size(self, left: int, count: int) -> int:
         """Return the number of runs in the next batch, of those that are left for a number of workers."""

@@ -87,6 +87,17 @@ def test_each_worker_has_one_batch(executor, workers):
     assert workers.begun == [(0,), (1,)]
 
 
+def test_while_the_first_run_is_under_way_not_all_others_begin(executor, workers, monkeypatch):
+    def wait_for_the_last(batches):
+        workers.waiting.rotate(1)
+        ByHand.wait(workers, batches)
+
+    monkeypatch.setattr("gradysim.cli.executor._MOST_AHEAD", 5)
+    workers.wait = wait_for_the_last
+    assert [row.number for row in all_rows(executor, 9)] == [1, 2, 3, 4, 0, 5, 6, 7, 8]
+    assert workers.begun[:3] == [(0,), (1,), (2, 3, 4)]
+
+
 @pytest.mark.parametrize(
     "row", [Row(0, FAILED), Row(0, MISTAKE, death="it cannot start"), Row(0, OK, OSError())]
 )
