@@ -16,7 +16,6 @@ from rich.console import Console
 from gradysim.cli.dask_workers import dask_workers
 from gradysim.cli.earlier_results import runs_to_do
 from gradysim.cli.errors import INTERRUPTED, OK, report_crashes, say_mistake
-from gradysim.cli.execution import Run, check_names, simulator
 from gradysim.cli.executor import RunExecutor, Workers
 from gradysim.cli.interrupt import KILLING, StopOnInterrupt
 from gradysim.cli.memory import checked_limit
@@ -32,6 +31,7 @@ from gradysim.cli.run_all import run_all
 from gradysim.cli.run_task import Command, RunTask, import_what_runs_use
 from gradysim.cli.runs import check, findings_of, tell, warnings_of_seeds
 from gradysim.cli.share import part_of_share
+from gradysim.cli.single_run import Run, check_names, simulator
 from gradysim.cli.until import Until, checked_until, rounds_of
 from gradysim.cli.workers import ExecutorWorkers, ForkedWorkers
 from gradysim.encapsulator.run_context import gc_paused

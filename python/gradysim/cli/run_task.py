@@ -15,13 +15,13 @@ from typing import TYPE_CHECKING
 import gradysim.results.omnetpp  # noqa: F401 (before processes are forked)
 from gradysim.cli.earlier_results import is_done, is_of_other_settings
 from gradysim.cli.errors import INTERRUPTED, LOCKED, MISTAKE, OK, OVER_MEMORY, say_mistake
-from gradysim.cli.execution import execute, report, simulator
 from gradysim.cli.fork_executor import keep_from_forks
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import check_outputs, files_under_way, remove_files_under_way, write_files
 from gradysim.cli.runs import check, tell
+from gradysim.cli.single_run import execute, report, simulator
 from gradysim.execution.run_lock import RunLockedError, run_locked
 from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
 from gradysim.results.files import run_file
@@ -32,7 +32,7 @@ from gradysim.scenario.sweep import text_of_iterations
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from gradysim.cli.execution import Run
+    from gradysim.cli.single_run import Run
     from gradysim.scenario.load import Study
     from gradysim.scenario.scenario import Scenario
 

@@ -10,11 +10,11 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.errors import FAILED, OK, print_failure, say_mistake
-from gradysim.cli.execution import Run
 from gradysim.cli.guardian import children, ending_children
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import Mode, ViewOptions
 from gradysim.cli.runs import check
+from gradysim.cli.single_run import Run
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.integrated.run import IntegratedRun
 from gradysim.replay.beside import ReplaysBeside

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from gradysim.cli import execution
+from gradysim.cli import single_run
 from python.cli.command import both_modes, environment, objects, run_command
 
 COSTS = ("wall_s", "cpu_s", "setup_s")
@@ -178,7 +178,7 @@ def test_an_exception_outside_of_protocols_is_told_with_its_traceback(gradysim, 
     def print_summary(*_, **__):
         raise RuntimeError("no summary")
 
-    monkeypatch.setattr(execution, "print_summary", print_summary)
+    monkeypatch.setattr(single_run, "print_summary", print_summary)
     done = gradysim("run", "test.ini", "--mode", "prototype", "-r", "0", "-j", "2")
     assert done.returncode == 1
     assert "RuntimeError: no summary\nGeneral run 0: the process exited with status 1\n" in done.stderr

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 from rich.console import Console
 
-from gradysim.cli.execution import execute
 from gradysim.cli.interrupt import StopOnInterrupt
+from gradysim.cli.single_run import execute
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.results.result import RunResult
 from gradysim.scenario.errors import ConfigError
