@@ -15,6 +15,7 @@ import time
 from collections.abc import Callable, Collection, Iterable
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
 from functools import partial
+from tempfile import TemporaryFile
 
 from gradysim.cli.errors import FAILED, MISTAKE, report_crashes
 from gradysim.cli.executor import Batch, Row, RunExecutor, WorkersLostError
@@ -135,30 +136,36 @@ def compute(command: Command, numbers: tuple[int, ...]) -> list[Row]:
     Raises RuntimeError if the process fails.
     """
     columns = {} if command.columns is None else {"COLUMNS": str(command.columns)}
-    with _lock, blocked(signal.SIGINT):  # until the process can handle it
-        if command.id in _presses:
-            return []
-        process = subprocess.Popen(
-            [sys.executable, "-P", "-c", "from gradysim.cli.workers import main; main()"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            cwd=command.directory,
-            env={**os.environ, **columns},
-            process_group=0,
-        )
-        _processes[process] = command.id
-    with process:
-        try:
-            returned, error_output = process.communicate(pickle.dumps((os.getpid(), command, numbers)))
-        finally:
-            process.kill()
-            del _processes[process]
-    if process.returncode:
-        printed = error_output.decode("utf-8", errors="replace").strip()
-        raise RuntimeError(f"the process of a batch exited with status {process.returncode}\n{printed}")
-    rows: list[Row] = pickle.loads(returned)
-    return rows
+    with (
+        TemporaryFile() as returned,
+        TemporaryFile() as printed,
+    ):  # a process that a module starts keeps pipes
+        with _lock, blocked(signal.SIGINT):  # until the process can handle it
+            if command.id in _presses:
+                return []
+            process = subprocess.Popen(
+                [sys.executable, "-P", "-c", "from gradysim.cli.workers import main; main()"],
+                stdin=subprocess.PIPE,
+                stdout=returned,
+                stderr=printed,
+                cwd=command.directory,
+                env={**os.environ, **columns},
+                process_group=0,
+            )
+            _processes[process] = command.id
+        with process:
+            try:
+                process.communicate(pickle.dumps((os.getpid(), command, numbers)))
+            finally:
+                process.kill()
+                del _processes[process]
+        returned.seek(0)
+        if process.returncode == 0:
+            rows: list[Row] = pickle.load(returned)
+            return rows
+        printed.seek(0)
+        text = printed.read().decode("utf-8", errors="replace").strip()
+        raise RuntimeError(f"the process of a batch exited with status {process.returncode}\n{text}")
 
 
 def press(command: str, presses: int) -> None:

@@ -61,6 +61,22 @@ def test_a_batch_that_cannot_be_read_is_an_error(command):
         compute(command(config="Nowhere"), (0,))
 
 
+def test_a_process_that_a_module_starts_does_not_hold_it_up(command, folder):
+    (folder / "starts.py").write_text(
+        "import os\nfrom protocol import Talker\n"
+        "if (started := os.fork()) == 0:\n    os.execlp('sleep', 'sleep', '600')\n"
+        "open('started', 'w').write(str(started))\n"
+        "class Starts(Talker):\n    pass\n"
+    )
+    settings = ('*.uavs[*].protocol.class="starts.py:Starts"',)
+    with ThreadPoolExecutor(1) as executor:
+        batch = executor.submit(compute, command(settings=settings), (0, 1))
+        try:
+            assert [row.code for row in batch.result(60)] == [OK, OK]
+        finally:
+            os.kill(int((folder / "started").read_text()), signal.SIGKILL)
+
+
 def test_its_data_are_plain(command):
     data = pickle.dumps((command(), tuple(range(1000))))
     assert len(data) < 10_000
