@@ -114,7 +114,7 @@ def _is_parameter(key: Key) -> bool:
 
 def _sizes(resolution: Resolution) -> Mapping[str, Row]:
     """Return the rows of the numbers of nodes, by their keys below the network."""
-    rows = [(group, group.size_row or Row(GROUP_SIZE, "", ())) for group in resolution.groups]
+    rows = [(group, group.size_row or Row(GROUP_SIZE, "")) for group in resolution.groups]
     return {group.size_key: row for group, row in rows} | {f"{group.name}.count": row for group, row in rows}
 
 
@@ -166,7 +166,7 @@ def _without_lines(keys: Mapping[str, Key], path: str, subject: str, written: st
             expected="one that `gradysim keys` lists",
             suggestion=f"{subject}.{match}" if match else "",
         )
-    return Row(keys[path], path, ())
+    return Row(keys[path], path)
 
 
 def _default(row: Row, resolution: Resolution, models: Models, node: str) -> str:

@@ -7,6 +7,7 @@ the paths of a schema once with each pattern of a rest, so that a thousand nodes
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import NamedTuple
 
 from gradysim.scenario.errors import BadValue, ConfigError, ErrorCollector
@@ -17,7 +18,7 @@ from gradysim.scenario.patterns import Pattern, compile_pattern
 from gradysim.scenario.schema import Key
 from gradysim.scenario.values import Setting, SettingReader
 
-_ANY_NAME = "*"
+_ANY_NAME = compile_pattern("*")
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,18 +71,31 @@ class Row(NamedTuple):
     Attributes:
         key: The parameter.
         path: Its path below the subject, such as `wlan[1].radio.transmitter.power`.
-        lines: The lines that match, in the order of the search. The first is in force and hides the others.
+        own: Lines in the order of the search: those about this subject alone, or all if `general` is None.
+        general: The row of other lines, which many subjects share.
     """
 
     key: Key
     path: str
-    lines: tuple[Line, ...]
+    own: tuple[Line, ...] = ()
+    general: "Row | None" = None
 
     @property
     def line(self) -> Line:
-        """The line in force."""
-        return self.lines[0]
+        """The line in force: the first of all."""
+        if self.general is None:
+            return self.own[0]
+        return min(self.own[0], self.general.own[0], key=_order)
 
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """All lines in the order of the search. The first is in force and hides the others."""
+        if self.general is None:
+            return self.own
+        return tuple(sorted({*self.own, *self.general.own}, key=_order))
+
+
+_order = attrgetter("order")
 
 Rows = Mapping[str, Row]
 """The rows of one subject by path, in the order of its schema."""
@@ -93,7 +107,7 @@ class Schema:
     def __init__(self, keys: Mapping[str, Key]) -> None:
         """Take the keys by path; the path `""` is that of the subject itself."""
         self.keys = keys
-        self.places = {path: place for place, path in enumerate(keys)}
+        self._places = {path: place for place, path in enumerate(keys)}
         self._by_name: dict[str, list[str]] = {}  # by each name in it, and by `wlan[` for `wlan[0]`
         self._by_tail: dict[str, list[str]] = {}
         for path in keys:
@@ -101,22 +115,21 @@ class Schema:
             self._by_tail.setdefault(names[-1], []).append(path)
             for name in {*names, *(f"{name.partition('[')[0]}[" for name in names if "[" in name)}:
                 self._by_name.setdefault(name, []).append(path)
-        self._known: dict[tuple[str, str], Sequence[str]] = {}
 
     def matching(self, pattern: Pattern | None, prefix: str) -> Sequence[str]:
         """Return the paths that match if `prefix` precedes them; `""` alone for a missing pattern."""
         if pattern is None:
             return [""] if "" in self.keys else []
         if pattern.literal is not None and not prefix:
-            return [pattern.literal] if pattern.literal in self.keys else []
-        known = self._known.get((pattern.text, prefix))
-        if known is None:
-            paths = self.may_match(pattern)
-            if pattern.landmark:
-                paths = min(paths, self._by_name.get(pattern.landmark, ()), key=len)
-            known = [path for path in paths if path and pattern.matches(prefix + path)]
-            self._known[pattern.text, prefix] = known
-        return known
+            return [pattern.literal] if pattern.literal and pattern.literal in self.keys else []
+        paths = self.may_match(pattern)
+        if pattern.landmark:
+            paths = min(paths, self._by_name.get(pattern.landmark, ()), key=len)
+        return [path for path in paths if path and pattern.matches(prefix + path)]
+
+    def in_order(self, rows: Mapping[str, Row]) -> Rows:
+        """Return rows by path in the order of the keys."""
+        return {path: rows[path] for path in sorted(rows, key=self._places.__getitem__)}
 
     def may_match(self, pattern: Pattern) -> Collection[str]:
         """Return the paths that can match with something before them, judged by their last names."""
@@ -171,7 +184,9 @@ class Lines:
         self._general: dict[str, Pattern] = {}
         self._of_group: dict[str, list[Pattern]] = {}
         self._names: dict[str, Names] = {}
+        self._alike: dict[Names, Names] = {}  # each once, for a million nodes
         self._uncertain: list[Line] = []
+        self._matching: dict[tuple[Schema, str | None, str], Sequence[str]] = {}
         self._rows: dict[tuple[tuple[str, ...], Schema], Rows] = {}
         for line in self.all:
             self._add(line)
@@ -183,7 +198,10 @@ class Lines:
         elif (below := line.pattern.below_anything) is not None:
             name, rest = below
             self._read(name, _Reading(line, rest, ""))
-            self._read(compile_pattern(_ANY_NAME), _Reading(line, line.pattern, "."))
+            self._read(_ANY_NAME, _Reading(line, line.pattern, "."))
+        elif (parts := line.pattern.below_any_name) is not None:
+            if parts[0].matches(self.network):
+                self._read(_ANY_NAME, _Reading(line, parts[1], "."))
         else:
             self._uncertain.append(line)
 
@@ -204,7 +222,8 @@ class Lines:
             of_group = self._of_group[group] = [each for each in all_of_them if each.group in (None, group)]
         general = tuple([id_of(pattern) for pattern in of_group if pattern.matches(name)])
         is_alone = f"={name}" in self._readings or bool(self._uncertain)
-        names = self._names[name] = Names(general, name if is_alone else "")
+        names = Names(general, name if is_alone else "")
+        names = self._names[name] = self._alike.setdefault(names, names)
         return names
 
     def patterns_of(self, names: Iterable[str]) -> set[str]:
@@ -221,38 +240,38 @@ class Lines:
         known = self._rows.get((names.general, schema))
         if known is None:
             found = self._found(names.general, schema)
-            known = self._rows[names.general, schema] = _in_order(found, schema)
+            rows = {path: Row(schema.keys[path], path, tuple(lines)) for path, lines in found.items()}
+            known = self._rows[names.general, schema] = schema.in_order(rows)
         if not names.literal:
             return known
         own = self._found([f"={names.literal}"], schema)
         for line in self._uncertain:
             for path in schema.may_match(line.pattern):
                 if line.pattern.matches(".".join(filter(None, (self.network, names.literal, path)))):
-                    own.setdefault(path, []).append(line)
-        for path, lines in own.items():
-            general = known[path].lines if path in known else ()
-            lines += [line for line in general if line not in lines]
-            lines.sort(key=lambda line: line.order)
-        return (
-            _in_order({**{path: row.lines for path, row in known.items()}, **own}, schema) if own else known
-        )
+                    own.setdefault(path, {})[line] = None
+        if not own:
+            return known
+        rows = {
+            path: Row(schema.keys[path], path, tuple(sorted(lines, key=_order)), known.get(path))
+            for path, lines in own.items()
+        }
+        return schema.in_order({**known, **rows})
 
-    def _found(self, names: Iterable[str], schema: Schema) -> dict[str, list[Line]]:
-        found: dict[str, list[Line]] = {}
-        for reading in (reading for name in names for reading in self._readings.get(name, ())):
-            for path in schema.matching(reading.rest, reading.prefix):
-                lines = found.setdefault(path, [])
-                if reading.line not in lines:
-                    lines.append(reading.line)
-        for lines in found.values():
-            lines.sort(key=lambda line: line.order)
+    def _found(self, names: Iterable[str], schema: Schema) -> dict[str, dict[Line, None]]:
+        """Return the lines for each path in the order of the search, each once."""
+        readings = [reading for name in names for reading in self._readings.get(name, ())]
+        found: dict[str, dict[Line, None]] = {}
+        for line, rest, prefix in sorted(readings, key=lambda reading: reading.line.order):
+            for path in self._paths(schema, rest, prefix):
+                found.setdefault(path, {})[line] = None
         return found
 
-
-def _in_order(found: Mapping[str, Sequence[Line]], schema: Schema) -> dict[str, Row]:
-    """Return rows in the order of the schema."""
-    places, keys = schema.places, schema.keys
-    return {path: Row(keys[path], path, tuple(found[path])) for path in sorted(found, key=places.__getitem__)}
+    def _paths(self, schema: Schema, rest: Pattern | None, prefix: str) -> Sequence[str]:
+        known = (schema, None if rest is None else rest.text, prefix)
+        paths = self._matching.get(known)
+        if paths is None:
+            paths = self._matching[known] = schema.matching(rest, prefix)
+        return paths
 
 
 def _compiled(order: int, entry: Entry) -> Line:

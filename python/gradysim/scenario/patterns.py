@@ -122,6 +122,15 @@ class Pattern:
         return Pattern(name), Pattern(rest) if dot < len(tokens) else None
 
     @cached_property
+    def below_any_name(self) -> "tuple[Pattern, Pattern] | None":
+        """`Net` and `**.speed` for `Net.**.speed`; None for a pattern of another form."""
+        dot = next((place for place, token in enumerate(self.tokens) if token.literal == "."), 0)
+        name, rest = self.tokens[:dot], self.tokens[dot + 1 :]
+        if [token.text for token in rest[:2]] != ["**", "."] or any(token.spans_dots for token in name):
+            return None
+        return Pattern(name), Pattern(rest)
+
+    @cached_property
     def landmark(self) -> str:
         """A name, or its part up to the bracket, that all matching paths have; "" if none is certain.
 

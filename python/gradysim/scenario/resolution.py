@@ -7,7 +7,7 @@ other values are read by the modules that build the scenario.
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
@@ -92,12 +92,17 @@ class Resolution:
         for rows in self.of_absent:
             yield from rows.values()
 
+    def matched(self) -> set[Line]:
+        """Return the lines that are about some parameter."""
+        parts = {id(part.own): part.own for row in self.rows() for part in (row, row.general) if part}
+        return {line for lines in parts.values() for line in lines}
+
 
 _CHOICES = Schema({key.path: key for key in (*PROTOCOL_KEYS, NUM_WLAN_INTERFACES)})
 """The parameters that decide which others a node has."""
 
 
-@cache
+@lru_cache(maxsize=2)  # without obstacles, and with those of a study
 def network_schemas(obstacles: int = 0) -> Mapping[str, Schema]:
     """Return the schema of each module of the network, by name."""
     paths = [(key.path, key) for key in NETWORK_KEYS if key not in OBSTACLE_KEYS]

@@ -74,7 +74,7 @@ def check_parameters(resolution: Resolution, errors: ErrorCollector) -> None:
     Those that name no node are reported before.
     """
     lines, groups = resolution.lines, resolution.groups
-    matched = {line for row in resolution.rows() for line in row.lines}
+    matched = resolution.matched()
     unmatched = [line for line in lines.all if line not in matched]
     if not unmatched:
         return

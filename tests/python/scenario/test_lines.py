@@ -43,6 +43,26 @@ def test_paths_of_two_parts() -> None:
     assert matching(lines, "numSensors") == ["2"]
 
 
+def test_a_key_that_ends_in_a_dot_names_nothing() -> None:
+    lines = Lines(entries("*.numUavs.", "**.numUavs.", "*.numUavs"))
+    assert matching(lines, "numUavs") == ["2"]
+
+
+def test_anything_below_the_network_may_be_a_name_and_more() -> None:
+    lines = Lines(entries("Network.**.y", "*.**.x.y", "Other.**.y", "*.**.uavs[3].x.y", "*.**"))
+    assert matching(lines, "uavs[3]", "x.y") == ["0", "1", "4"]
+    assert matching(lines, "uavs[3]", "y") == ["0", "4"]
+
+
+def test_subjects_with_the_same_general_lines_share_their_rows() -> None:
+    lines = Lines(entries("*.uavs[2].x.y", "*.uavs[*].x.y", "Network.**.z"))
+    of_node = schema("x.y", "z")
+    rows = [lines.rows(lines.names(f"uavs[{index}]"), of_node) for index in range(3)]
+    assert rows[0] is rows[1]
+    assert rows[2]["z"] is rows[0]["z"]
+    assert rows[2]["x.y"].general is rows[0]["x.y"]
+
+
 def test_paths_begin_with_the_name_of_the_network() -> None:
     written = entries("Other.a.b", "Network.a.b")
     assert matching(Lines(written), "a", "b") == ["1"]
