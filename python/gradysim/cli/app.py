@@ -67,83 +67,132 @@ app.register_install_completion_command(help="Install completion for this shell,
 
 COMMANDS = {
     "Write": {
-        "new": ("new:make_project", "gradysim new swarm"),
-        "check": ("check:check_file", "gradysim check swarm.ini -c Study"),
-        "explain": ("explain:explain_parameter", "gradysim explain swarm.ini 'uavs[3].mobility.speed'"),
-        "docs": ("docs:show_docs", "gradysim docs fly-a-mission"),
-        "keys": ("keys:list_keys", "gradysim keys communicationRange"),
-        "calibrate": ("calibrate:calibrate_power", "gradysim calibrate swarm.ini --range 50m"),
-        "import": ("import_file:import_file", "gradysim import omnetpp.ini -o imported"),
+        "new": (
+            "new:make_project",
+            "Make a directory with a protocol, scenarios and a test, or a copy of an example.",
+            "gradysim new swarm",
+        ),
+        "check": (
+            "check:check_file",
+            "Report the errors and warnings that show before the first run, sorted by line.",
+            "gradysim check swarm.ini -c Study",
+        ),
+        "explain": (
+            "explain:explain_parameter",
+            "Explain the value of a parameter: the line that sets it, the lines it hides, and what reads it.",
+            "gradysim explain swarm.ini 'uavs[3].mobility.speed'",
+        ),
+        "docs": (
+            "docs:show_docs",
+            "Show a page of the documentation, or list the pages that have a word in their title or text.",
+            "gradysim docs fly-a-mission",
+        ),
+        "keys": (
+            "keys:list_keys",
+            "List the keys of .ini files: unit, default, meaning.",
+            "gradysim keys communicationRange",
+        ),
+        "calibrate": (
+            "calibrate:calibrate_power",
+            "Find the transmission power for a wanted range, or the path loss for measured powers or"
+            " deliveries.",
+            "gradysim calibrate swarm.ini --range 50m",
+        ),
+        "import": (
+            "import_file:import_file",
+            "Translate an .ini file of OMNeT++, and list what was done with each line.",
+            "gradysim import omnetpp.ini -o imported",
+        ),
     },
     "Run": {
-        "run": ("run:run", "gradysim run swarm.ini -c Study --jobs 2 --result-dir results"),
-        "runs": ("runs:list_runs", "gradysim runs swarm.ini -c Study"),
-        "status": ("status:print_status", "gradysim status swarm.ini -c Study --result-dir results"),
+        "run": (
+            "run:run",
+            "Run the runs of a configuration and report their results.",
+            "gradysim run swarm.ini -c Study --jobs 2 --result-dir results",
+        ),
+        "runs": (
+            "runs:list_runs",
+            "List the runs of a configuration.",
+            "gradysim runs swarm.ini -c Study",
+        ),
+        "status": (
+            "status:print_status",
+            "List which runs of a configuration are done. The exit code is 0 only if all of them are.",
+            "gradysim status swarm.ini -c Study --result-dir results",
+        ),
     },
     "Look": {
-        "view": ("view:view", "gradysim view swarm.ini -c Study --run 3"),
+        "view": (
+            "view:view",
+            "Show a run in the browser: while it goes on (FILE.ini), or its replay (FILE.html).",
+            "gradysim view swarm.ini -c Study --run 3",
+        ),
     },
     "Evaluate": {
-        "means": ("means:print_means", "gradysim means results --metric 'station heard'"),
-        "compare": ("compare:compare", "gradysim compare results --by mode"),
+        "means": (
+            "means:print_means",
+            "Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence"
+            " intervals.",
+            "gradysim means results --metric 'station heard'",
+        ),
+        "compare": (
+            "compare:compare",
+            "Compare two studies, or two modes or configurations of one, by pairs of runs with the same"
+            " seed.",
+            "gradysim compare results --by mode",
+        ),
         "plot": (
             "plot:draw_figure",
+            "Draw a figure of the runs in a directory, and write its numbers and their origin next to it.",
             "gradysim plot results --x jitter --metric 'station heard' -o heard.pdf",
         ),
-        "pack": ("pack:pack_results", "gradysim pack results --remove"),
-        "verify": ("verify:verify_files", "gradysim verify results"),
+        "pack": (
+            "pack:pack_results",
+            "Put the JSON files of a directory into one SQLite file, which other commands read in their"
+            " place.",
+            "gradysim pack results --remove",
+        ),
+        "verify": (
+            "verify:verify_files",
+            "Verify checksums and hashes of all files of a study, and print a line for each bad file.",
+            "gradysim verify results",
+        ),
     },
     "Find weaknesses": {
-        "ladder": ("ladder:climb_ladder", "gradysim ladder swarm.ini --metric 'station heard' -o ladder.png"),
-        "bisect": ("bisect:find_breaking_level", "gradysim bisect swarm.ini --assert 'station heard >= 100'"),
-        "desync": ("desync:desynchronize_timers", "gradysim desync swarm.ini"),
+        "ladder": (
+            "ladder:climb_ladder",
+            "Run a configuration with more and more effects of real radios, and print what each level"
+            " changes.\n\nA run that fails does not count in the means. The exit code is 1 then.",
+            "gradysim ladder swarm.ini --metric 'station heard' -o ladder.png",
+        ),
+        "bisect": (
+            "bisect:find_breaking_level",
+            "Find the lowest level of realism at which a protocol fails, and say why.\n\nExit code 0: the"
+            " assertion holds in all runs, and each level was run; 1: it fails in some. Two replays are"
+            " written to --result-dir (default: results).",
+            "gradysim bisect swarm.ini --assert 'station heard >= 100'",
+        ),
+        "desync": (
+            "desync:desynchronize_timers",
+            "Find timers of nodes that send into each other, and the random delay (jitter) that they"
+            " need.\n\nExit code 1: all runs without jitter fail.",
+            "gradysim desync swarm.ini",
+        ),
     },
 }
-"""{group: {command: its function and an example}}, in the order of the help.
+"""{group: {command: its function, its help and an example}}, in the order of the help.
 
 The file of a function in `gradysim.cli` is imported only when the command is called.
 """
 
-HELP = {
-    "new": "Make a directory with a protocol, scenarios and a test, or a copy of an example.",
-    "check": "Report the errors and warnings that show before the first run, sorted by line.",
-    "explain": "Explain the value of a parameter: the line that sets it, the lines it hides, and what reads"
-    " it.",
-    "docs": "Show a page of the documentation, or list the pages that have a word in their title or text.",
-    "keys": "List the keys of .ini files: unit, default, meaning.",
-    "calibrate": "Find the transmission power for a wanted range, or the path loss for measured powers or"
-    " deliveries.",
-    "import": "Translate an .ini file of OMNeT++, and list what was done with each line.",
-    "run": "Run the runs of a configuration and report their results.",
-    "runs": "List the runs of a configuration.",
-    "status": "List which runs of a configuration are done. The exit code is 0 only if all of them are.",
-    "view": "Show a run in the browser: while it goes on (FILE.ini), or its replay (FILE.html).",
-    "means": "Print means over runs, of tracked variables, outcomes and delays, with 95 % confidence"
-    " intervals.",
-    "compare": "Compare two studies, or two modes or configurations of one, by pairs of runs with the same"
-    " seed.",
-    "plot": "Draw a figure of the runs in a directory, and write its numbers and their origin next to it.",
-    "pack": "Put the JSON files of a directory into one SQLite file, which other commands read in their"
-    " place.",
-    "verify": "Verify checksums and hashes of all files of a study, and print a line for each bad file.",
-    "ladder": "Run a configuration with more and more effects of real radios, and print what each level"
-    " changes.\n\nA run that fails does not count in the means. The exit code is 1 then.",
-    "bisect": "Find the lowest level of realism at which a protocol fails, and say why."
-    "\n\nExit code 0: the assertion holds in all runs, and each level was run; 1: it fails in some. Two"
-    " replays are written to --result-dir (default: results).",
-    "desync": "Find timers of nodes that send into each other, and the random delay (jitter) that they need."
-    "\n\nExit code 1: all runs without jitter fail.",
-}
-"""{command: its help}."""
-
 for _group, _commands in COMMANDS.items():
     _shown = Group.create_ordered(_group)
-    for _name, (_function, _example) in _commands.items():
+    for _name, (_function, _help, _example) in _commands.items():
         app.command(
             f"gradysim.cli.{_function}",
             name=_name,
             group=_shown,
-            help=HELP[_name],
+            help=_help,
             help_epilogue=f"Example: {_example}",
         )
 _options = Group.create_ordered("Options")
