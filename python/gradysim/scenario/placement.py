@@ -33,7 +33,7 @@ class Placement:
 
     Attributes:
         idle: The fields without effect on the initial position.
-        grid_line: The line that asks for a grid; None if there is no grid.
+        grid_line: The line that asks for a grid, or None.
     """
 
     def __init__(self, in_force: Mapping[str, Line]) -> None:
