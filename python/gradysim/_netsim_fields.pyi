@@ -32,33 +32,33 @@ class MobilityFields:
     initial_heading_rad: float
     """How the node is turned at the start: from the x axis to the y axis."""
     initial_elevation_rad: float
-    """The same upward."""
+    """How far the node is turned upward at the start."""
     initial_bank_rad: float
-    """The same about the node's own x axis, from the y axis to the z axis."""
+    """How the node is turned at the start about its own x axis: from the y axis to the z axis."""
     face_forward: bool
     """Whether heading and elevation follow the direction of flight."""
     area_min_x_m: float
     """Smallest x of the area."""
     area_min_y_m: float
-    """The same for y."""
+    """Smallest y of the area."""
     area_min_z_m: float
-    """The same for z."""
+    """Smallest z of the area."""
     area_max_x_m: float
     """Largest x of the area."""
     area_max_y_m: float
-    """The same for y."""
+    """Largest y of the area."""
     area_max_z_m: float
-    """The same for z."""
+    """Largest z of the area."""
     movement_heading_rad: float
     """Direction of the first leg, from the x axis to the y axis."""
     movement_elevation_rad: float
-    """The same upward."""
+    """How far the first leg leads upward."""
     center_x_m: float
     """X of the center of the circle."""
     center_y_m: float
-    """The same for y."""
+    """Y of the center of the circle."""
     center_z_m: float
-    """The same for z."""
+    """Z of the center of the circle."""
     radius_m: float
     """Radius of the circle, which is flown as a polygon at most 1 cm inside of it."""
     start_angle_rad: float
