@@ -9,7 +9,7 @@ const here = fileURLToPath(new URL(".", import.meta.url));
 const target = process.argv[2] ?? `${here}../python/gradysim/viewer/page.html`;
 
 const licenses = [];
-for (const name of ["three", "uplot"])
+for (const name of ["three", "uplot", "webm-muxer"])
   licenses.push(`${name}\n\n${await readFile(`${here}node_modules/${name}/LICENSE`, "utf8")}`);
 
 const bundled = await build({

@@ -3,17 +3,9 @@
 import { inkOn, styleColor } from "./colors";
 import { Clock } from "./clock";
 import { make, sharpness, timeText } from "./dom";
+import { Film } from "./film";
 
 const SHARP = 2;
-const FILM = "video/webm";
-const FILM_BITS_PER_S = 16e6;
-const FRAMES_PER_S = 30;
-
-/** The browser gets the film in parts, as it can keep them on the disk. */
-const PART_MS = 1000;
-
-/** How often the last picture is drawn until the film has it. */
-const LAST_TRIES = 100;
 
 /** An element with canvases on top of each other, and what is written below. */
 export interface Stage {
@@ -22,8 +14,9 @@ export interface Stage {
 }
 
 export class Capture {
-  private recorder: MediaRecorder | null = null;
-  private readonly film = make("canvas");
+  private film: { canvas: HTMLCanvasElement; record: Film } | null = null;
+  /** Whether a film starts or ends: until then, the key may be pressed again. */
+  private isBusy = false;
 
   /** `draw` draws the canvases anew, `say` shows a message. */
   constructor(
@@ -34,7 +27,7 @@ export class Capture {
   ) {}
 
   get isRecording(): boolean {
-    return this.recorder !== null;
+    return this.film !== null;
   }
 
   async save(): Promise<void> {
@@ -49,52 +42,48 @@ export class Capture {
 
   /** Record from now on, or stop and save what was recorded. */
   async toggleFilm(): Promise<void> {
-    if (this.recorder !== null) {
-      if (this.recorder.state === "recording") await this.recordLast(this.recorder);
-      if (this.recorder?.state === "recording") this.recorder.stop();
-      return;
+    if (this.isBusy) return;
+    this.isBusy = true;
+    try {
+      await (this.film === null ? this.startFilm() : this.endFilm(this.film.record));
+    } finally {
+      this.isBusy = false;
     }
-    if (typeof MediaRecorder === "undefined" || !MediaRecorder.isTypeSupported(FILM)) {
-      this.say("This browser cannot record a film: it does not offer MediaRecorder for WebM.");
+  }
+
+  private async startFilm(): Promise<void> {
+    if (typeof VideoEncoder === "undefined") {
+      this.say("This browser cannot record a film here: it does not offer VideoEncoder.");
       return;
     }
     sharpness.least = SHARP;
-    this.compose(this.film);
-    const stream = this.film.captureStream(FRAMES_PER_S);
-    const parts: Blob[] = [];
-    // Before the page is drawn, as the key may be pressed again until then.
-    this.recorder = new MediaRecorder(stream, { mimeType: FILM, videoBitsPerSecond: FILM_BITS_PER_S });
-    this.recorder.addEventListener("dataavailable", ({ data }) => parts.push(data));
-    this.recorder.addEventListener("stop", () => {
-      this.recorder = null;
-      sharpness.least = 1;
-      this.download(new Blob(parts, { type: FILM }), "webm");
-      void this.draw();
-    });
-    await this.draw();
-    this.compose(this.film);
-    this.recorder.start(PART_MS);
+    const canvas = make("canvas");
+    this.compose(canvas);
+    const fail = ({ message }: DOMException): void => {
+      this.leaveFilm();
+      this.say(`This browser cannot record a film: ${message}`);
+    };
+    this.film = { canvas, record: new Film(canvas, fail) };
     await this.draw();
   }
 
-  /** Draw, and wait until the film has it: encoding takes time, more than a film may be long. */
-  private async recordLast(recorder: MediaRecorder): Promise<void> {
-    const nextPart = (): Promise<Blob> =>
-      new Promise((done) => {
-        recorder.addEventListener("dataavailable", ({ data }) => done(data), { once: true });
-        if (recorder.state === "recording") recorder.requestData();
-        else done(new Blob());
-      });
-    await nextPart();
-    for (let tries = 0; tries < LAST_TRIES; tries += 1) {
-      await this.draw();
-      if ((await nextPart()).size > 0) return;
-    }
+  private async endFilm(record: Film): Promise<void> {
+    await this.draw();
+    this.leaveFilm();
+    this.download(await record.end(), "webm");
+    await this.draw();
+  }
+
+  private leaveFilm(): void {
+    this.film = null;
+    sharpness.least = 1;
   }
 
   /** Add what was drawn to the film, if one is recorded. Call it after each drawing: canvases lose it later. */
   add(): void {
-    if (this.recorder !== null) this.copy(this.film);
+    if (this.film === null) return;
+    this.copy(this.film.canvas);
+    this.film.record.add();
   }
 
   private compose(canvas: HTMLCanvasElement): void {
