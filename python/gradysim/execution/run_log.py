@@ -3,8 +3,8 @@
 import logging
 import sys
 import threading
-from collections.abc import Callable, Sequence
-from typing import Self
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 
 from gradysim.replay.tables import EVENT_KINDS
 from gradysim.replay.trace import name_width, text_line
@@ -18,53 +18,49 @@ RecordEvent = Callable[[int, int, str], None]
 
 
 class RunLog(logging.Handler):
-    """Writes log lines inside the `with` block to standard error.
+    """Writes log lines of a run to standard error.
 
     If logging has been configured, its handlers and levels apply. In both cases a replay gets the lines of
     nodes.
     """
 
-    def __init__(
+    def __init__(self, level: int, nodes: Sequence[NodeSpec]) -> None:
+        """Log from `level` on, one of the levels of `logging`. Nodes come in the order of their ids."""
+        super().__init__(level)
+        self._nodes = nodes
+        self._width = 0
+        self._thread: int | None = None
+
+    @contextmanager
+    def in_use(
         self,
-        level: int,
-        nodes: Sequence[NodeSpec],
         now: Callable[[], float],
         active_node: Callable[[], int | None],
         record_event: RecordEvent | None = None,
-    ) -> None:
-        """Log from `level` on.
+    ) -> Iterator[None]:
+        """Write the lines that are logged inside the block.
 
         Args:
-            level: One of the levels of `logging`.
-            nodes: Nodes in the order of their ids.
             now: Returns the simulated time in seconds.
             active_node: Returns the id of the node whose protocol runs, None outside of callbacks.
             record_event: Records the lines of nodes.
         """
-        super().__init__(level)
-        self._nodes = nodes
-        self._now = now
-        self._active_node = active_node
-        self._width = 0
-        self._thread: int | None = None
-        self._record_event = record_event
-
-    def __enter__(self) -> Self:
-        root = logging.getLogger()
+        self._now, self._active_node, self._record_event = now, active_node, record_event
         self._thread = threading.get_ident()
-        self._levels = (root.level, root.level)
-        if not any(not isinstance(handler, RunLog) for handler in root.handlers):
-            self._levels = (root.level, min(root.level, self.level))
-            root.setLevel(self._levels[1])
-        root.addHandler(self)
-        return self
-
-    def __exit__(self, *_: object) -> None:
         root = logging.getLogger()
-        root.removeHandler(self)
-        before, own = self._levels
-        if root.level == own:
-            root.setLevel(before)
+        before = own = root.level
+        if all(isinstance(handler, RunLog) for handler in root.handlers):
+            own = min(before, self.level)
+        if own != before:  # all loggers look up their levels again
+            root.setLevel(own)
+        root.addHandler(self)
+        try:
+            yield
+        finally:
+            root.removeHandler(self)
+            if own != before and root.level == own:
+                root.setLevel(before)
+            del self._now, self._active_node, self._record_event  # which refer to the run
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a line, or several if its message has several."""

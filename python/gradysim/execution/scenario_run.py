@@ -109,7 +109,8 @@ class ScenarioRun(ABC):
         self._recorders = recorders_of(vectors_of, len(scenario.nodes), scenario.vector_record_interval_s)
         self._replay = replay
         self._recorder: Recorder | None = None
-        self._log_level = log_level
+        self._log = RunLog(log_level, scenario.nodes)
+        self._protocols = {spec.protocol for spec in scenario.nodes}
         self._lacks_output = False
 
     @property
@@ -327,11 +328,9 @@ class ScenarioRun(ABC):
 
     @contextmanager
     def _protocol_environment(self) -> Iterator[None]:
-        siblings = siblings_importable(spec.protocol for spec in self._scenario.nodes)
         record_event = None if self._recorder is None else self._recorder.event
-        # Not kept: both would refer to each other.
-        log = RunLog(self._log_level, self._scenario.nodes, self._now, self._active_node, record_event)
-        with log, siblings, self._random.in_use():
+        log = self._log.in_use(self._now, self._active_node, record_event)
+        with log, siblings_importable(self._protocols), self._random.in_use():
             yield
 
     @abstractmethod

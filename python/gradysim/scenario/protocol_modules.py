@@ -10,11 +10,13 @@ import importlib.util
 import os
 import sys
 import threading
+import time
 import uuid
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import takewhile
 from pathlib import Path
 from types import ModuleType
@@ -24,6 +26,8 @@ from gradysim.protocol.interface import IProtocol
 
 _loading = threading.RLock()
 """`sys.path` and `sys.modules` are shared by the whole process."""
+
+_SURE_NS = 1_000_000_000
 
 _running = threading.RLock()
 """Held while the files of one scenario are importable during its run."""
@@ -101,7 +105,7 @@ class ModuleLoader:
             sys.modules.update(hidden)
 
 
-def _loaded(names: set[str]) -> list[tuple[str, ModuleType]]:
+def _loaded(names: frozenset[str]) -> list[tuple[str, ModuleType]]:
     """Return the modules with one of these names, and those of packages with one.
 
     Mostly there are none. Then this looks at no module: each look would copy a page of memory in a process
@@ -137,15 +141,32 @@ def _is_stdlib(name: str) -> bool:
     return name.partition(".")[0] in sys.stdlib_module_names
 
 
-def _module_names(folder: Path) -> set[str]:
-    """Return the names of the modules of a folder that hide modules from elsewhere."""
+def _module_names(folder: Path) -> frozenset[str]:
+    """Return the names of the modules of a folder that hide modules from elsewhere.
+
+    The folder is listed again when it has changed. A change within the last second may go on without a new
+    time of change, on systems with coarse clocks.
+    """
     try:
-        entries = list(os.scandir(folder))
+        changed_ns = os.stat(folder).st_mtime_ns
+        if time.time_ns() - changed_ns < _SURE_NS:
+            return _listed(folder)
+        return _listed_at(folder, changed_ns)
     except OSError:  # the folder is gone, or was never there
-        return set()
+        return frozenset()
+
+
+@lru_cache(maxsize=64)
+def _listed_at(folder: Path, _changed_ns: int) -> frozenset[str]:
+    return _listed(folder)
+
+
+def _listed(folder: Path) -> frozenset[str]:
+    entries = list(os.scandir(folder))
     files = {entry.name.removesuffix(".py") for entry in entries if entry.name.endswith(".py")}
-    packages = {entry.name for entry in entries if os.path.isfile(os.path.join(entry.path, "__init__.py"))}
-    return (files | packages) - sys.stdlib_module_names - {"__main__", "gradysim"}
+    folders = (entry for entry in entries if entry.is_dir())
+    packages = {entry.name for entry in folders if os.path.isfile(os.path.join(entry.path, "__init__.py"))}
+    return frozenset((files | packages) - sys.stdlib_module_names - {"__main__", "gradysim"})
 
 
 def _is_in(name: str, module: ModuleType, folder: Path) -> bool:
@@ -210,7 +231,7 @@ def siblings_importable(classes: Iterable[type[IProtocol]]) -> Iterator[None]:
     A name that several of their folders have cannot be imported. While another thread runs a scenario, only
     the files beside the protocols of that one can be.
     """
-    origins = {origin for cls in set(classes) if (origin := origin_of(cls)) is not None}
+    origins = [origin for cls in set(classes) if (origin := origin_of(cls)) is not None]
     folders = {(origin.loader, origin.file.parent) for origin in origins}
     if not folders or not _running.acquire(blocking=False):
         yield
@@ -219,11 +240,22 @@ def siblings_importable(classes: Iterable[type[IProtocol]]) -> Iterator[None]:
         with ExitStack() as stack:
             for loader, folder in folders:
                 stack.enter_context(loader.siblings_importable(folder, first=False))
-            counts = Counter(name for _, folder in folders for name in _module_names(folder))
-            ambiguous = [name for name, count in counts.items() if count > 1]
-            for name in ambiguous:
-                sys.modules[name] = None  # type: ignore[assignment]  # which makes the import fail
-            stack.callback(lambda: [sys.modules.pop(name, None) for name in ambiguous])
+            if len(folders) > 1:
+                stack.enter_context(_ambiguous_hidden([folder for _, folder in folders]))
             yield
     finally:
         _running.release()
+
+
+@contextmanager
+def _ambiguous_hidden(folders: Iterable[Path]) -> Iterator[None]:
+    """Inside, a name that several folders have cannot be imported."""
+    counts = Counter(name for folder in folders for name in _module_names(folder))
+    ambiguous = [name for name, count in counts.items() if count > 1]
+    for name in ambiguous:
+        sys.modules[name] = None  # type: ignore[assignment]  # which makes the import fail
+    try:
+        yield
+    finally:
+        for name in ambiguous:
+            sys.modules.pop(name, None)

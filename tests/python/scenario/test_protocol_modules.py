@@ -317,3 +317,19 @@ def test_a_class_that_is_no_longer_used_is_freed(folder: Any) -> None:
     ProtocolLoader().load("protocols.py:Mobile", folder.path)
     gc.collect()
     assert cls() is None
+
+
+def test_a_folder_is_listed_again_only_when_it_has_changed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tested = load(tmp_path)
+    os.utime(tmp_path, (0, 0))
+    listed = []
+    scandir = os.scandir
+    monkeypatch.setattr(os, "scandir", lambda folder: (listed.append(folder), scandir(folder))[1])
+    counts = []
+    for time_s in (0, 0, 1, 1):
+        os.utime(tmp_path, (time_s, time_s))
+        with siblings_importable([tested]):
+            counts.append(len(listed))
+    assert counts == [1, 1, 2, 2]
