@@ -111,7 +111,7 @@ def test_a_protocol_that_fails_ends_the_run(make_scenario, mode):
 def test_the_past_cannot_be_run(make_scenario, mode):
     with gradysim.start(make_scenario(), mode) as run:
         run.run_until(1.0)
-        with pytest.raises(ValueError, match=r"0\.5 s: it is 1\.0 s"):
+        with pytest.raises(ValueError, match=r"0\.5 s: .* 1\.0 s"):
             run.run_until(0.5)
 
 
@@ -124,5 +124,5 @@ def test_a_node_that_is_missing_names_the_nearest(make_scenario):
 
 
 def test_a_mode_that_is_missing(make_scenario):
-    with pytest.raises(ValueError, match=r"expected 'integrated' or 'prototype'"):
+    with pytest.raises(ValueError, match=r"'integrated' or 'prototype'"):
         gradysim.start(make_scenario(), "real")

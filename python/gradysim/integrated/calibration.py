@@ -13,7 +13,7 @@ from gradysim.integrated.engine_errors import EngineError, errors_at, text_of
 from gradysim.integrated.network import medium_config, node_config, node_settings
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
-from gradysim.scenario.errors import ConfigError, did_you_mean
+from gradysim.scenario.errors import ConfigError, nearest
 from gradysim.scenario.keys import CENTER_FREQUENCY
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
@@ -241,15 +241,17 @@ def _interface_named(nodes: Sequence[NodeSpec], name: str | None, role: str) -> 
     node = next((node for node in nodes if node.name == of_node), None)
     if node is not None and index < len(node.wlan):
         return node, index
+    suggestion = ""
     if node is not None:
         has = "wlan[0]" if len(node.wlan) == 1 else f"wlan[0] to wlan[{len(node.wlan) - 1}]"
-        reason = f"there is no such interface; expected one of those of {node.name}, {has}"
+        reason, expected = "there is no such interface", f"one of those of {node.name}, {has}"
     elif of_group := [node.name for node in nodes if node.group == of_node]:
-        reason = f"it is a group; expected one of its nodes, such as {of_group[0]}"
+        reason, expected = "it is a group", f"one of its nodes, such as {of_group[0]}"
     else:
-        hint = did_you_mean(of_node, [node.name for node in nodes])
-        reason = f"there is no such node; expected one such as {nodes[0].name}{hint}"
-    raise ConfigError(f"`{name}` cannot be the {role}: {reason}")
+        reason, expected = "there is no such node", f"one such as {nodes[0].name}"
+        suggestion = nearest(of_node, [node.name for node in nodes])
+    problem = f"`{name}` cannot be the {role}: {reason}"
+    raise ConfigError(problem, expected=expected, suggestion=suggestion)
 
 
 def _with_one_interface(node: NodeSpec, index: int) -> NodeSpec:

@@ -226,7 +226,7 @@ def _token(text: str, position: int) -> tuple[Token, int]:
     if character == "{":
         end = text.find("}", position + 2)
         if end < 0:
-            raise BadValue("`{` is not closed; expected `}` after it (a plain brace is written `\\{`)")
+            raise BadValue("`{` is not closed", expected="`}` after it (a plain brace is written `\\{`)")
         return _character_set(text[position + 1 : end]), end + 1
     if character == "\\":
         if position + 1 == len(text):

@@ -166,8 +166,8 @@ def select_runs(
         if not numbers or numbers.start < 0 or numbers.stop > count:
             run = numbers.start if not numbers or numbers.start < 0 else numbers.stop - 1
             has = "run 0" if count == 1 else f"runs 0 to {count - 1}"
-            expected = f"expected {has} ({made_of or f'`repeat = {count}`'})"
-            raise ConfigError(f"configuration `{config}` has no run {run}; {expected}", source)
+            expected = f"{has} ({made_of or f'`repeat = {count}`'})"
+            raise ConfigError(f"configuration `{config}` has no run {run}", source, expected=expected)
     return sorted({run for numbers in ranges for run in numbers})
 
 

@@ -120,21 +120,21 @@ class Tested(Quiet):
 
 
 def test_a_command_that_means_nothing_is_refused(flown_scenario, mode):
-    with pytest.raises(MasslessMobilityException, match="node 0 was sent to"):
+    with pytest.raises(MasslessMobilityException, match=r"^node 0 .*nan"):
         mode.run(flown_scenario(REFUSED))
 
 
 def test_an_autopilot_that_dies_ends_the_run_and_what_was_computed_is_there(flown_scenario, mode):
     run_class = getattr(mode, f"{mode.__name__.split('.')[1].capitalize()}Run")
     run = run_class(flown_scenario(FLYER, wrongs={0: {"dies_at": 10}}))
-    with pytest.raises(SitlError, match=r"node 0 \(uavs\[0\]\): the autopilot ended with status 7"):
+    with pytest.raises(SitlError, match=r"node 0 \(uavs\[0\]\): .*status 7"):
         run.execute()
     assert 1 < run.result().sim_time_s < 10
     assert len(track_of(run.result())) >= 2
 
 
 def test_one_that_cannot_take_off_keeps_the_run_from_being_built(flown_scenario, mode):
-    with pytest.raises(SitlError, match=r"node 0 \(uavs\[0\]\): .* the battery exploded"):
+    with pytest.raises(SitlError, match=r"node 0 \(uavs\[0\]\): .*exploded"):
         mode.run(flown_scenario(FLYER, wrongs={0: {"dies_at": "take-off"}}))
 
 

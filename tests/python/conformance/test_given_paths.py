@@ -66,5 +66,5 @@ def test_replays_show_the_path(make_scenario: Any, path: list[str], run: Any, tm
 
 @pytest.mark.parametrize("mode", MODES)
 def test_commands_are_refused(make_scenario: Any, path: list[str], mode: str) -> None:
-    with pytest.raises(Exception, match="node 0 does not follow commands, got GotoCoords"):
+    with pytest.raises(Exception, match=r"node 0 .* GotoCoords"):
         MODES[mode](make_scenario(ORDERS, *path))

@@ -88,5 +88,5 @@ def test_replays_show_the_true_path(make_scenario: Any, run: Any, tmp_path: Path
 
 
 def test_a_start_below_the_ground_is_refused(make_scenario: Any) -> None:
-    with pytest.raises(ConfigError, match=r"starts below the ground, at z = -1m; expected at least 0m"):
+    with pytest.raises(ConfigError, match=r"z = -1m; .* 0m"):
         make_scenario(TRIP, *QUADCOPTER[:1], "*.uavs[*].mobility.initialZ = -1m")

@@ -30,7 +30,7 @@ def test_it_records_the_nodes_that_it_is_asked_for(new_run, make_scenario):
 
 
 def test_an_id_that_is_not_there_is_refused_before_the_run(new_run, make_scenario):
-    with pytest.raises(ValueError, match=r"^vectors_of: there is no node 2; expected ids of the 2 nodes"):
+    with pytest.raises(ValueError, match=r"^vectors_of: .* node 2; "):
         new_run(make_scenario(), vectors_of=[2])
 
 

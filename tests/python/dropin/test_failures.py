@@ -26,7 +26,8 @@ def test_an_exception_of_a_protocol_is_raised_and_says_where_it_was() -> None:
     with pytest.raises(RuntimeError, match="broken") as caught:
         simulation(Quiet, Broken).start_simulation()
     (note,) = caught.value.__notes__
-    assert note == "in handle_timer of node 1 (Broken 1) at 2.5 s of simulated time"
+    assert note.startswith("in handle_timer ")
+    assert "(Broken 1) at 2.5 s " in note
 
 
 def test_a_timer_in_the_past_is_an_exception() -> None:

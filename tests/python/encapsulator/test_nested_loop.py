@@ -22,7 +22,7 @@ def test_another_loop_may_run_inside():
 
 def test_what_is_inside_does_not_know_of_the_outer_loop():
     async def outer():
-        with outer_loop_stands(), pytest.raises(RuntimeError, match="no running event loop"):
+        with outer_loop_stands(), pytest.raises(RuntimeError, match="running"):
             asyncio.get_running_loop()
 
     asyncio.run(outer())
@@ -48,5 +48,5 @@ def test_after_a_failure_inside_the_outer_loop_and_its_task_go_on():
 def test_without_an_outer_loop_there_is_none_afterwards():
     with outer_loop_stands():
         assert asyncio.run(_answer()) == 42
-    with pytest.raises(RuntimeError, match="no running event loop"):
+    with pytest.raises(RuntimeError, match="running"):
         asyncio.get_running_loop()

@@ -118,7 +118,7 @@ def test_the_reports_reproduce_the_dict(steps):
 
 
 def test_a_variable_is_not_an_attribute(variables):
-    with pytest.raises(AttributeError, match="no attribute 'c'"):
+    with pytest.raises(AttributeError, match="'c'"):
         variables.c = 3
 
 

@@ -80,7 +80,7 @@ def test_lines_have_time_and_node(logged):
 )
 def test_the_level_chooses_lines(logged, level, expected):
     mine = [text for _, node, _, text in logged(level) if node == "uavs[0]"]
-    assert [text for text in mine if " sends to " not in text] == expected
+    assert [text for text in mine if " sends " not in text] == expected
 
 
 def test_a_handler_of_the_user_writes_the_lines_instead(logged):

@@ -93,11 +93,11 @@ def test_so_does_what_a_timer_of_the_same_instant_answers(flights, make_scenario
 def test_an_autopilot_that_dies_ends_the_run_where_it_is(flights, make_scenario, monkeypatch):
     def advance_to(time_s):
         if time_s > 0.03:
-            raise SitlError("vehicle 0: it died")
+            raise SitlError("spoilt")
 
     monkeypatch.setattr(flights, "advance_to", advance_to)
     integrated_run = IntegratedRun(make_scenario(TRACKED, TELEMETRY, LIMIT))
-    with pytest.raises(SitlError, match=r"^vehicle 0: it died$"):
+    with pytest.raises(SitlError, match=r"^spoilt$"):
         integrated_run.execute()
     assert flights.diary == ["begin", "close"]
     assert len(track_of(integrated_run.result(), 0)) == 3

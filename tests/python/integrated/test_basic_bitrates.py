@@ -68,4 +68,4 @@ def test_a_bitrate_of_another_operation_mode_is_refused(received: Callable[..., 
 def test_what_is_no_list_of_bitrates_is_refused(received: Callable[..., int], value: str) -> None:
     with pytest.raises(ConfigError) as error:
         received(f"**.mac.basicBitrates = {value}")
-    assert "a list of bitrates such as [1Mbps, 2Mbps]" in str(error.value)
+    assert "[1Mbps, 2Mbps]" in error.value.expected

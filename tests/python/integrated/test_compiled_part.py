@@ -12,5 +12,5 @@ def test_the_engine_is_there_once_it_was_built():
 def test_without_it_the_error_says_how_to_get_it(monkeypatch):
     monkeypatch.setitem(sys.modules, "gradysim._netsim", None)
     monkeypatch.delattr("gradysim._netsim", raising=False)
-    with pytest.raises(CompiledPartMissingError, match=r"pip install \."):
+    with pytest.raises(CompiledPartMissingError, match=r"`pip install \.`"):
         load_netsim()

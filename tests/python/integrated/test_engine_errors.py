@@ -66,7 +66,7 @@ def test_where_nothing_else_was_set_the_number_of_interfaces_is_the_cause():
 
 def test_a_calculated_value_is_shown():
     settings = {"radio.bandwidth_hz": Setting(22e6, Source(Path("a.ini"), 7, "width", "2 * 11MHz"))}
-    assert "that is 22MHz" in radio_error(settings, carrier_hz=1e6).message
+    assert " 22MHz: " in radio_error(settings, carrier_hz=1e6).message
 
 
 PARABOLIC = (f'{ANTENNA}.typename = "ParabolicAntenna"', f"{ANTENNA}.beamWidth = 1rad")

@@ -56,12 +56,12 @@ def test_a_camera_of_ones_own_can_do_more_with_what_is_seen(make_scenario):
 
 def test_a_camera_that_looks_at_nodes_of_python_says_where_it_works(make_scenario):
     protocol = CAMERA_OF_ONES_OWN.replace("{SEEN}", "len(self._mobility.nodes)")
-    with pytest.raises(RuntimeError, match=r"Counting uses the nodes of .* prototype mode"):
+    with pytest.raises(RuntimeError, match=r"^Counting .*prototype"):
         run(make_scenario(protocol))
 
 
 def test_a_radio_says_in_which_mode_it_does_not_work(make_scenario):
-    with pytest.raises(TypeError, match=r"prototype mode only.* integrated mode"):
+    with pytest.raises(TypeError, match=r"prototype.* integrated"):
         run(make_scenario(RADIO))
 
 

@@ -149,7 +149,7 @@ def test_a_sender_without_power_is_refused(make_scenario: Callable[..., Scenario
     lines = [(1.0, 1.0), (2.0, 0.0), (3.0, 1.0), (4.0, 0.0)]
     with pytest.raises(ConfigError) as error:
         fit_path_loss(silent, Measurements(column, lines), *pair_of(silent, None, None))
-    assert error.value.expected == "the power of the measurements"
+    assert "power" in error.value.expected
 
 
 @pytest.mark.parametrize("ratio", [1e-3, 0.5, 1e3])

@@ -52,10 +52,10 @@ def test_without_a_coherence_time_each_transmission_fades_for_itself() -> None:
 
 
 def test_a_value_out_of_range_is_refused() -> None:
-    with pytest.raises(ConfigError, match=r"medium\.shape_factor = 0\.1: expected from 0\.5 to 1000"):
+    with pytest.raises(ConfigError, match=r"medium\.shape_factor = 0\.1: .* 0\.5 to 1000"):
         propagation("NakagamiFading", shape_factor=0.1)
 
 
 def test_the_unit_disk_has_no_path_loss() -> None:
-    with pytest.raises(ConfigError, match="expected a medium with a path loss"):
+    with pytest.raises(ConfigError, match="UnitDiskRadioMedium"):
         Propagation(MediumConfig("UnitDiskRadioMedium"), 1)

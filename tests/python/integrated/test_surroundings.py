@@ -79,6 +79,6 @@ def test_what_the_engine_refuses_of_an_obstacle_names_it() -> None:
     scenario = load_scenarios(TOWN, "Blocked", "0")[0]
     first, second, *others = scenario.obstacles
     of_a_script = replace(scenario, obstacles=(first, replace(second, material="bricks"), *others))
-    with pytest.raises(ConfigError, match="did you mean brick") as caught:
+    with pytest.raises(ConfigError, match="brick") as caught:
         medium_config(of_a_script)
-    assert 'town.geojson, feature 1 ("North-west block")' in str(caught.value)
+    assert 'feature 1 ("North-west block")' in str(caught.value)

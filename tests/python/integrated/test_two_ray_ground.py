@@ -28,15 +28,15 @@ def path_loss(name: str) -> str:
 
 @pytest.mark.parametrize("name", ["TwoRayGroundReflection", "TwoRayInterference"])
 def test_all_that_are_on_the_ground_are_told(hint: Callable[..., str], name: str) -> None:
-    assert hint(path_loss(name)) == (
-        f"with {name}, a node on the ground hears next to nothing, as both rays cancel, and uavs[0] and 1"
-        " more start at z = 0m; expected a height, such as `*.uavs[0].mobility.initialZ = 1.5m`"
-    )
+    text = hint(path_loss(name))
+    assert text.startswith(f"with {name}, ")
+    assert all(part in text for part in ("uavs[0] and 1 ", "z = 0m", "`*.uavs[0].mobility.initialZ = 1.5m`"))
 
 
 def test_of_one_that_is_there_alone_no_others_are_told(hint: Callable[..., str]) -> None:
     text = hint(path_loss("TwoRayInterference"), "*.uavs[0].mobility.initialZ=2m")
-    assert "and uavs[1] starts at z = 0m; expected a height, such as `*.uavs[1].mobility" in text
+    assert "uavs[1] starts " in text
+    assert "`*.uavs[1].mobility" in text
 
 
 @pytest.mark.parametrize(

@@ -59,5 +59,4 @@ def test_and_binds_more_tightly_than_or(numbers: dict[str, float], holds: bool) 
 def test_other_texts_are_refused_with_an_example(text: str) -> None:
     with pytest.raises(ConfigError) as refused:
         Assertion.parse(text)
-    assert refused.value.expected is not None
-    assert "groundStation heard >= 100" in refused.value.expected
+    assert " >= " in refused.value.expected

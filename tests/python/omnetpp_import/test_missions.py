@@ -49,5 +49,5 @@ def test_what_is_not_translated(tmp_path: Path, text: str, problem: str) -> None
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match="cannot be read"):
+    with pytest.raises(ValueError, match="missing"):
         read_mission(tmp_path / "missing", doubled)

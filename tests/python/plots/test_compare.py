@@ -58,5 +58,5 @@ def test_many_quantities_need_a_higher_figure() -> None:
 
 
 def test_nothing_to_draw() -> None:
-    with pytest.raises(ConfigError, match="a has no mean other than 0"):
+    with pytest.raises(ConfigError, match=r": a .* 0"):
         changes_numbers(CHANGES[1:2], "a", "b")

@@ -1,5 +1,7 @@
 import csv
+import errno
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -103,7 +105,7 @@ def test_an_argument_that_is_missing(
 @pytest.mark.parametrize("kind", ["cdf", "time", "map"])
 def test_an_argument_too_many(tmp_path: Path, study: Runs, kind: str) -> None:
     arguments = {"x": "jitter"} | ({} if kind == "map" else {"y": HEARD})
-    with pytest.raises(ConfigError, match=f"--kind {kind} does not take --x"):
+    with pytest.raises(ConfigError, match=f"--kind {kind} .* --x"):
         save_figure(tmp_path / "f.svg", study, kind=kind, **arguments)
 
 
@@ -116,12 +118,12 @@ def test_the_width_of_columns(columns: int, width_in: float) -> None:
 
 def test_a_missing_matplotlib_is_named_with_its_extra(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
-    with pytest.raises(ImportError, match="the extra `plot`"):
+    with pytest.raises(ImportError, match="`plot`"):
         new_figure()
 
 
 def test_a_full_disk_names_the_file(tmp_path: Path, study: Runs) -> None:
-    with disk_of(1000), pytest.raises(OSError, match="File too large") as raised:
+    with disk_of(1000), pytest.raises(OSError, match=os.strerror(errno.EFBIG)) as raised:
         save_figure(tmp_path / "f.svg", study, x="jitter", y=HEARD)
     assert raised.value.filename == str(tmp_path / "f.svg")
     assert not list(tmp_path.glob("f.*"))

@@ -66,7 +66,7 @@ def test_three_finite_numbers_are_a_point(point):
     ],
 )
 def test_anything_else_is_refused(point):
-    with pytest.raises(WrongError, match=r"home must be three finite numbers \(x, y, z\) in meters, got"):
+    with pytest.raises(WrongError, match=r"^home .*\(x, y, z\)"):
         checked_point("home", point, WrongError)
 
 
@@ -87,7 +87,7 @@ def test_a_range_may_be_a_single_number():
     ],
 )
 def test_what_is_no_range_is_refused(limits):
-    with pytest.raises(WrongError, match=r"width must be two finite numbers \(lowest, highest\) in meters"):
+    with pytest.raises(WrongError, match=r"^width .*\(lowest, highest\)"):
         checked_range("width", limits, WrongError)
 
 

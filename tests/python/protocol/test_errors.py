@@ -24,7 +24,7 @@ def test_the_note_names_callback_node_and_time():
     ("time_s", "text"), [(0, "0"), (0.1 + 0.2, "0.3"), (28800, "28800"), (7199.990001, "7199.990001")]
 )
 def test_times_are_rounded_to_12_digits(time_s, text):
-    assert f"at {text} s of" in notes_on(RuntimeError(), time_s)[0]
+    assert f" {text} s " in notes_on(RuntimeError(), time_s)[0]
 
 
 @pytest.mark.parametrize("exception", [SystemExit(3), asyncio.CancelledError(), GeneratorExit()])

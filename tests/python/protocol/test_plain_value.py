@@ -2,6 +2,7 @@ import enum
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 from decimal import Decimal
@@ -148,7 +149,7 @@ def test_an_object_whose_repr_fails_is_named_by_its_class():
         def __repr__(self):
             raise RuntimeError
 
-    assert "Broken object at" in str(plain_value(Broken()))
+    assert re.search("Broken .* 0x", str(plain_value(Broken())))
 
 
 class Level(IntEnum):

@@ -92,7 +92,7 @@ def test_runs_without_a_common_seed(tmp_path: Path) -> None:
     first, second = study(tmp_path / "a", {0: 1}), study(tmp_path / "b", {1: 1})
     with pytest.raises(ConfigError) as raised:
         pair_runs(first, second)
-    assert "the same seed and config and mode" in str(raised.value)
+    assert all(part in str(raised.value) for part in ("seed", "config", "mode"))
 
 
 def test_a_run_with_two_partners_is_refused(tmp_path: Path) -> None:
@@ -101,7 +101,7 @@ def test_a_run_with_two_partners_is_refused(tmp_path: Path) -> None:
     second = study(tmp_path / "b", {0: 1})
     with pytest.raises(ConfigError) as raised:
         pair_runs(first, second)
-    assert "Study-#0 and Study-#1 have the same seed, 0, and differ in `x`" in str(raised.value)
+    assert all(part in raised.value.problem for part in ("Study-#0", "Study-#1", " 0,", "`x`"))
     assert raised.value.expected == "one value: --where x=1"
 
 
@@ -110,4 +110,4 @@ def test_equal_runs_are_refused(tmp_path: Path) -> None:
     first = study(tmp_path / "a", {0: 1}, 1)
     with pytest.raises(ConfigError) as raised:
         pair_runs(first, first)
-    assert raised.value.expected == "a seed for each run"
+    assert "seed" in raised.value.expected

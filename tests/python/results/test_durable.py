@@ -80,9 +80,9 @@ def test_other_files_are_not_unfinished(name):
 
 def test_a_failed_read_names_the_file(tmp_path, monkeypatch):
     def read(_):
-        raise OSError(errno.EIO, "bad disk")  # as of a read, which knows a descriptor only
+        raise OSError(errno.EIO, "spoilt")  # as of a read, which knows a descriptor only
 
     monkeypatch.setattr(Path, "read_bytes", read)
-    with pytest.raises(OSError, match="bad disk") as raised:
+    with pytest.raises(OSError, match="spoilt") as raised:
         bytes_in(tmp_path / "a.json")
     assert raised.value.filename == str(tmp_path / "a.json")

@@ -57,7 +57,7 @@ def test_another_file_is_an_error(tmp_path: Path) -> None:
     file = tmp_path / "other.bin"
     file.write_bytes(b"other")
     assert not has_checksum(file)
-    with pytest.raises(ValueError, match="does not end with a checksum"):
+    with pytest.raises(ValueError, match="checksum"):
         verify_checksum(file)
 
 

@@ -98,11 +98,11 @@ def test_a_disk_that_is_full_does_not_cost_the_earlier_file(tmp_path, monkeypatc
     def write_half(path, text, **_):
         with path.open("w", encoding="utf-8") as file:
             file.write(text[: len(text) // 2])
-        raise OSError(errno.ENOSPC, "no space left")
+        raise OSError(errno.ENOSPC, "spoilt")
 
     with monkeypatch.context() as patch:
         patch.setattr(pathlib.Path, "write_text", write_half)
-        with pytest.raises(OSError, match="no space left") as raised:
+        with pytest.raises(OSError, match="spoilt") as raised:
             write_run_file(dataclasses.replace(RESULT, events=11), tmp_path)
     (path,) = tmp_path.iterdir()
     assert path.read_text(encoding="utf-8") == earlier

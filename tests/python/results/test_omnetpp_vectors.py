@@ -91,5 +91,5 @@ def test_the_rows_of_a_vector_are_found_by_an_index(rows):
 
 
 def test_times_and_values_that_are_not_as_many_are_an_error(rows):
-    with pytest.raises(ValueError, match="argument 3 is shorter"):
+    with pytest.raises(ValueError, match="shorter"):
         rows([("N.a", "protocol", "v", [1, 2], [1.0])], "SELECT * FROM vectorData")

@@ -108,7 +108,7 @@ def test_another_file_is_an_error_that_names_it(tmp_path: Path) -> None:
     file = tmp_path / "packs" / "other.sca"
     file.parent.mkdir()
     file.write_text("version 3")
-    with pytest.raises(OSError, match="not a pack") as raised:
+    with pytest.raises(OSError, match="pack") as raised:
         packed_files(file)
     assert raised.value.filename == str(file)
 
@@ -128,7 +128,7 @@ def read_all(pack: Path, directory: Path) -> None:
 def test_a_pack_without_a_checksum_is_an_error(tmp_path: Path) -> None:
     file = packed(tmp_path, result())
     change(file, "UPDATE packedRun SET seed = 8")
-    with pytest.raises(OSError, match="pack the results again") as raised:
+    with pytest.raises(OSError, match="again") as raised:
         packed_files(file)
     assert (raised.value.errno, raised.value.filename) == (errno.EIO, str(file))
     with pytest.raises(ValueError, match="checksum"):
@@ -156,7 +156,7 @@ def test_an_unexpected_value_is_an_error_that_names_the_pack(tmp_path: Path, sta
     file = packed(tmp_path, result())
     change(file, statement)
     append_checksum(file)
-    with pytest.raises(OSError, match="not a pack, or damaged") as raised:
+    with pytest.raises(OSError, match="damaged") as raised:
         read_all(file, tmp_path)
     assert (raised.value.errno, raised.value.filename) == (errno.EIO, str(file))
 

@@ -134,7 +134,7 @@ def test_cells_of_a_column_have_one_type(tmp_path: Path, cells: list[object], co
 
 def test_a_frame_without_pandas_names_the_extra(study: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pandas", None)
-    with pytest.raises(ImportError, match="the extra `pandas`"):
+    with pytest.raises(ImportError, match="`pandas`"):
         runs(study).frame()
 
 

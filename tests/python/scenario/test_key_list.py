@@ -41,7 +41,7 @@ def test_defaults_are_written_as_in_a_file(end: str, written: str) -> None:
 def test_a_meaning_begins_with_the_models_that_read_the_key() -> None:
     assert row("pathLoss.k").meaning.startswith("RicianFading: ")
     assert row("macMinBE").meaning.startswith("802.15.4, exponential: ")
-    assert row("opMode").meaning.startswith("Generation of")
+    assert ": " not in row("opMode").meaning
 
 
 @pytest.mark.parametrize("pattern", ["POWER", "*.transmitter.power", "wlan[*].radio.transmitter.pow"])

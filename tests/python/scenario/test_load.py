@@ -235,9 +235,9 @@ def test_errors(folder: Any, added: str, message: str) -> None:
 
 @pytest.mark.parametrize("text", ["1", "5m", "0s", "-1s", "inf s", "nan s", "200d", "1h 5"])
 def test_a_time_limit_that_is_none(folder: Any, text: str) -> None:
-    error = folder.error(f"[X]\nsim-time-limit = {text}\n", "X")
-    assert error.startswith(f"test.ini:7: sim-time-limit = {text}: ")
-    assert "expected a time such as 10s, greater than 0s and at most 9200000s" in error
+    error = folder.mistake(f"[X]\nsim-time-limit = {text}\n", "X")
+    assert (error.line, error.key, error.value) == (7, "sim-time-limit", text)
+    assert all(part in error.expected for part in (" 0s ", " 9200000s"))
 
 
 def test_a_time_limit_is_needed(folder: Any) -> None:
@@ -309,10 +309,9 @@ def test_nodes_are_needed(folder: Any) -> None:
     folder.write("test.ini", "[General]\nsim-time-limit = 1s\n[X]\n")
     with pytest.raises(ConfigError) as caught:
         load_scenarios(folder.ini)
-    assert str(caught.value) == (
-        f"{folder.ini}:1: there are no nodes; "
-        "expected some, such as `*.numUavs = 2`; or run another configuration of the file: `config = NAME`, X"
-    )
+    assert (caught.value.file, caught.value.line) == (folder.ini, 1)
+    assert "`*.numUavs = 2`" in caught.value.expected
+    assert caught.value.hint.endswith("`config = NAME`, X")
 
 
 @pytest.mark.parametrize("size", ["0", "${n=0, 2}"])
@@ -335,7 +334,7 @@ def test_a_misspelt_general_is_named(folder: Any) -> None:
     for config in ["General", "X"]:
         with pytest.raises(ConfigErrors) as caught:
             load_scenarios(folder.ini, config)
-        assert any("did you mean [General]?" in error.hint for error in caught.value.errors)
+        assert any("[General]" in error.hint for error in caught.value.errors)
 
 
 def test_nodes_that_only_other_configurations_have(folder: Any) -> None:
@@ -348,7 +347,7 @@ def test_nodes_that_only_other_configurations_have(folder: Any) -> None:
 
 
 def test_what_is_no_name_of_a_configuration(folder: Any) -> None:
-    with pytest.raises(TypeError, match=r"^config = None: expected the name of a configuration$"):
+    with pytest.raises(TypeError, match=r"^config = None: "):
         load_scenarios(folder.ini, None)  # type: ignore[arg-type]
 
 
@@ -356,9 +355,9 @@ def test_a_run_that_does_not_exist(folder: Any) -> None:
     folder.load("repeat = 3\n")
     with pytest.raises(ConfigError) as caught:
         load_scenarios(folder.ini, runs="3")
-    assert str(caught.value) == (
-        f"{folder.ini}:6: configuration `General` has no run 3; expected runs 0 to 2 (`repeat = 3`)"
-    )
+    assert (caught.value.file, caught.value.line) == (folder.ini, 6)
+    assert all(part in caught.value.problem for part in ("`General`", "run 3"))
+    assert caught.value.expected == "runs 0 to 2 (`repeat = 3`)"
 
 
 def test_ids_count_from_the_most_general_section_on(folder: Any) -> None:
@@ -456,7 +455,7 @@ def test_they_are_placed_where_they_stand_if_read_alone(folder: Any) -> None:
 
 
 def test_what_only_the_seed_of_a_later_run_makes_wrong_is_refused(folder: Any) -> None:
-    with pytest.raises(ConfigError, match="with seed 4: it is out of range"):
+    with pytest.raises(ConfigError, match="seed 4: "):
         checked(folder, "repeat = 50\n*.uavs[*].mobility.speed = uniform(-1mps, 20mps)\n")
 
 

@@ -75,6 +75,11 @@ LINES = [
     "*.uavs[*].mobility.numHosts = 1",
     "*.uavs[*].mobility.columns = 0",
     '*.uavs[*].mobility.typename = "ArduPilotMobility"\n*.uavs[*].mobility.speed = 0mps',
+    "*.uavs[*].mobility.speed = -intuniform(2, 2) * 1mps",
+    "*.uavs[*].mobility.speed = 3mps - 5mps * parentIndex()",
+    "*.uavs[*].mobility.speed = 5\N{MICRO SIGN}s",
+    "*.uavs[*].mobility.lineStartY = 1m\n*.uavs[*].mobility.lineStepY = 10000km",
+    '*.numBoats = 1\n*.boats[*].protocl.class = "protocols.py:Mobile"',
     '*.uavs[*].protocol.class = "protocol.py:Mobile"',
     '*.uavs[0].protocol.class = "protocols.py:Mobil"',
     '*.uavs[0].protocol.class = "protocols.py"',
@@ -101,6 +106,7 @@ LINES = [
     "network = a b",
     "network = ${n=A, B}",
     "sim-time-limt = 3s",
+    "sim-time-limit = uniform(1s, 2s)",
     "numUavs = 3",
     "zzzz = 1",
     "warmup-period = 1s",
@@ -145,6 +151,7 @@ SECTIONS = [
     ("[A]\nabstract = true\n[B]\nextends = A\n", "A"),
     ("[A]\nabstract = yes\n", "A"),
     ("[A]\n[B]\nextends = A, A\n", "B"),
+    ("[General]\nsim-time-limit = 1s\n[X]\n", "General"),
     ("[A]\n[General]\nextends = A\n", "General"),
 ]
 """Whole files, and a configuration that does not run."""

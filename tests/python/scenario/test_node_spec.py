@@ -80,13 +80,13 @@ SPEC = NodeSpec(0, "uavs[0]", "uavs", 0, IProtocol, {}, (0, 0, 0), {})
 
 @pytest.mark.parametrize("wrong", ["survey.py:Sensor", None])
 def test_a_protocol_that_is_no_class(wrong: Any) -> None:
-    with pytest.raises(TypeError, match=r"the protocol of uavs\[0\] must be a class, got"):
+    with pytest.raises(TypeError, match=r"protocol of uavs\[0\] "):
         replace(SPEC, protocol=wrong)
 
 
 @pytest.mark.parametrize("wrong", [(1, 2), (float("nan"), 0, 0), "123", None])
 def test_a_position_that_is_none(wrong: Any) -> None:
-    with pytest.raises(ValueError, match=r"the position of uavs\[0\] must be three finite numbers"):
+    with pytest.raises(ValueError, match=r"position of uavs\[0\] "):
         replace(SPEC, initial_position=wrong)
 
 
@@ -102,9 +102,7 @@ def test_a_parameter_that_the_protocol_has_not(name: str, hint: str) -> None:
     class Jittered(Quiet):
         jitter = 0.0
 
-    with pytest.raises(
-        ValueError, match=rf"`{name}` is not a parameter of Jittered, the protocol of uavs.*{hint}"
-    ):
+    with pytest.raises(ValueError, match=rf"^`{name}` .* Jittered, .* uavs.*{hint}"):
         replace(SPEC, protocol=Jittered, protocol_parameters={name: 1.0})
 
 

@@ -156,9 +156,9 @@ def test_no_number_of_wildcards_takes_long(stars: int) -> None:
 
 @pytest.mark.parametrize("text", ["a" * 1001, "*a" * 501])
 def test_a_pattern_that_is_too_long_is_refused(text: str) -> None:
-    with pytest.raises(BadValue, match=f"{len(text)} characters") as error:
+    with pytest.raises(BadValue, match=str(len(text))) as error:
         compile_pattern(text)
-    assert error.value.expected == "at most 1000"
+    assert error.value.expected.endswith(" 1000")
 
 
 @given(st.text("ab.*?", max_size=9), st.text("ab.", max_size=6))

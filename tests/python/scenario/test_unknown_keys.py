@@ -133,7 +133,7 @@ def test_who_names_no_node_may_have_meant_another_configuration(
     with pytest.raises(ConfigError) as error:
         folder.load(f"{key} = 1mps\n[Config Boats]\n*.numBoats = 1\n")
     assert isinstance(error.value, NoSuchNodeError) == is_told_of_others
-    assert ("; or run another configuration of the file: " in str(error.value)) == is_told_of_others
+    assert ("configuration" in error.value.hint) == is_told_of_others
 
 
 @pytest.mark.parametrize(
@@ -194,7 +194,7 @@ def test_an_attribute_without_a_value_in_the_class_is_told_apart(folder: Any, bo
     added = '*.buoy.protocol.class = "others.py:Sensor"\n*.buoy.protocol.gateway = 1\n'
     error = folder.mistake(added)
     assert (error.line, error.expected) == (7, "one of class, gate, typename")
-    assert "no value" in error.problem
+    assert "value" in error.problem
 
 
 def test_an_attribute_that_is_none_in_the_class_is_told_apart(folder: Any) -> None:

@@ -1,3 +1,4 @@
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -63,20 +64,18 @@ def test_knows_which_files_were_named() -> None:
 def test_errors_name_the_place_the_entry_and_what_was_expected() -> None:
     with pytest.raises(ConfigError) as caught:
         read_scalar(entry("3mpss"), SPEED)
-    assert str(caught.value) == (
-        "a.ini:7: *.x.y = 3mpss: there is no unit `mpss`; "
-        "expected a speed such as 10mps, at least 0mps; did you mean `mps`?"
-    )
+    error = caught.value
+    assert (error.line, error.key, error.value) == (7, "*.x.y", "3mpss")
+    assert (error.expected, error.suggestion) == (SPEED.expected, "mps")
+    assert "`mpss`" in error.problem
 
 
 def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
     of_this_run = replace(entry("${v=3mps, -3mps}"), text="-3mps")
     with pytest.raises(ConfigError) as caught:
         read_scalar(of_this_run, SPEED)
-    assert str(caught.value) == (
-        "a.ini:7: *.x.y = ${v=3mps, -3mps}: that is -3mps: it is out of range; "
-        "expected a speed such as 10mps, at least 0mps"
-    )
+    assert (caught.value.line, caught.value.expected) == (7, SPEED.expected)
+    assert caught.value.problem.startswith("*.x.y = ${v=3mps, -3mps}: that is -3mps: ")
 
 
 @pytest.mark.parametrize(
@@ -87,10 +86,8 @@ def test_a_parameter_that_the_key_leaves_open_is_named(key: str) -> None:
     written = Entry(key, "3m", Source(Path("a.ini"), 7, key, "3m"))
     with pytest.raises(ConfigError) as caught:
         read_scalar(written, SPEED, "uavs[0].mobility.speed")
-    assert str(caught.value) == (
-        f"a.ini:7: {key} = 3m: for uavs[0].mobility.speed: `m` is the unit of a length; "
-        "expected a speed such as 10mps, at least 0mps"
-    )
+    assert (caught.value.line, caught.value.expected) == (7, SPEED.expected)
+    assert caught.value.problem.startswith(f"{key} = 3m: for uavs[0].mobility.speed: `m` ")
 
 
 @pytest.mark.parametrize("key", ["*.uavs[*].mobility.speed", "**.mobility.speed"])
@@ -133,20 +130,15 @@ def test_what_is_drawn_is_another_value_for_each_parameter_and_seed() -> None:
 def test_without_a_parameter_nothing_is_drawn() -> None:
     with pytest.raises(ConfigError) as caught:
         SettingReader().setting(entry("uniform(1mps, 2mps)"), SPEED)
-    assert str(caught.value) == (
-        "a.ini:7: *.x.y = uniform(1mps, 2mps): `uniform` draws the value of a parameter, which this is not;"
-        " expected a speed such as 10mps, at least 0mps"
-    )
+    assert (caught.value.line, caught.value.expected) == (7, SPEED.expected)
+    assert caught.value.problem.startswith("*.x.y = uniform(1mps, 2mps): `uniform` ")
 
 
 def test_a_drawn_number_that_is_out_of_range_is_told_with_its_parameter() -> None:
     with pytest.raises(ConfigError) as caught:
         read_scalar(entry("-exponential(2mps) - 3mps"), SPEED, "x.y", ParameterContext(1, "x.y"))
-    text = str(caught.value)
-    assert text.startswith("a.ini:7: *.x.y = -exponential(2mps) - 3mps: that is -")
-    assert text.endswith(
-        "mps for x.y with seed 1: it is out of range; expected a speed such as 10mps, at least 0mps"
-    )
+    assert (caught.value.line, caught.value.expected) == (7, SPEED.expected)
+    assert re.search(r"3mps: .* -\S+mps for x\.y .*seed 1: ", caught.value.problem)
 
 
 @pytest.mark.parametrize(
@@ -178,12 +170,12 @@ def test_an_override_of_a_text_that_is_a_wrong_expression_is_refused(written: st
 
 
 def test_what_was_drawn_is_told_with_the_seed() -> None:
-    with pytest.raises(ConfigError, match=r"that is -3.0mps for x\[1\]\.y with seed 7: it is out of range"):
+    with pytest.raises(ConfigError, match=r" -3.0mps .* x\[1\]\.y .* 7: "):
         read_scalar(entry("uniform(-3mps, -3mps)"), SPEED, "x[1].y", ParameterContext(7, "x[1].y"))
 
 
 def test_a_truth_in_the_place_of_a_number_is_named_as_it_is_written() -> None:
-    with pytest.raises(ConfigError, match=r"that is true for x\[1\]\.mac\.y: "):
+    with pytest.raises(ConfigError, match=r" true .* x\[1\]\.mac\.y: "):
         read_scalar(entry("index == 1"), SPEED, "x[1].mac.y", ParameterContext(1, "x[1].y"))
 
 

@@ -31,7 +31,7 @@ class Talker(Quiet):
         self.provider.schedule_timer("talk", 0.1 + 0.01 * self.provider.get_id())
     def handle_timer(self, timer):
         if f"#{{self.fails_in_run}}." in (self.provider.run_name or "#0."):
-            raise RuntimeError("this run fails")
+            raise RuntimeError("spoilt")
         self.provider.send_communication_command(BroadcastMessageCommand("hello"))
         self.provider.schedule_timer("talk", self.provider.current_time() + 0.1)
     def handle_packet(self, message):
@@ -141,7 +141,7 @@ def test_a_failed_run_is_an_error_that_names_the_missing_runs(
         gs.run(file, "Study", overrides=overrides, result_dir=tmp_path / "results")
     assert failed.value.exit_code == 1
     assert 1 in failed.value.missing
-    assert "RuntimeError: this run fails" in capsys.readouterr().err
+    assert "spoilt" in capsys.readouterr().err
     assert pickle.loads(pickle.dumps(failed.value)).missing == failed.value.missing
 
 
@@ -154,7 +154,7 @@ def test_runs_that_never_begin_are_no_progress(file: Path, tmp_path: Path) -> No
 
 
 def test_a_single_run_raises_what_its_protocol_raises(file: Path) -> None:
-    with pytest.raises(RuntimeError, match="this run fails"):
+    with pytest.raises(RuntimeError, match="spoilt"):
         gs.run(file, overrides=["*.uavs[*].protocol.fails_in_run = 0"])
 
 
@@ -165,7 +165,7 @@ def test_a_mistake_in_the_file_is_an_error(file: Path) -> None:
 
 
 def test_there_is_no_third_mode(file: Path) -> None:
-    with pytest.raises(ValueError, match="there is no mode 'fast'"):
+    with pytest.raises(ValueError, match="'fast'"):
         gs.run(file, "Study", mode="fast")  # type: ignore[call-overload]
 
 

@@ -24,5 +24,5 @@ def test_where_a_mission_ends(ran: Ran, lines: str, expected: tuple[float, float
 
 @pytest.mark.parametrize("mission", ["0 0", "0 0 x", "0 0 inf", "back, 0 0 0"])
 def test_what_is_not_a_mission(ran: Ran, mission: str) -> None:
-    with pytest.raises(ValueError, match="a waypoint is three numbers"):
+    with pytest.raises(ValueError, match="waypoint"):
         ran(f'{FLIES}*.uav.protocol.mission = "{mission}"')

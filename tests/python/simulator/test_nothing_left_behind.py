@@ -32,7 +32,7 @@ class Busy(Quiet):
     def handle_timer(self, timer):
         self.timers += 1
         if self.failing and self.timers == 3:
-            raise RuntimeError("failed as it should")
+            raise RuntimeError("failed deliberate")
         self.provider.tracked_variables["timers"] = self.timers
         self.provider.send_communication_command(BroadcastMessageCommand("tick"))
         self.provider.schedule_timer("tick", self.provider.current_time() + 0.1)
@@ -68,7 +68,7 @@ def run_to_the_end():
 
 
 def fail():
-    with pytest.raises(RuntimeError, match="as it should"):
+    with pytest.raises(RuntimeError, match="deliberate"):
         build(Failing).start_simulation()
 
 
@@ -138,6 +138,6 @@ def test_simulations_that_are_shown_leave_no_thread():
 
 def test_a_failing_simulation_that_is_shown_leaves_no_thread():
     handler = VisualizationHandler(VisualizationConfiguration(host="127.0.0.1", port=0))
-    with pytest.raises(RuntimeError, match="as it should"):
+    with pytest.raises(RuntimeError, match="deliberate"):
         build(Failing, handlers=[handler]).start_simulation()
     assert [thread.name for thread in threading.enumerate() if "visualization" in thread.name] == []

@@ -79,7 +79,8 @@ def test_the_summary(path, caplog):
     lines = caplog.messages[0].splitlines()
     assert lines[3].split() == ["time_until_next_event", "0.7500", "0.5000", "0.7500"]
     assert lines[4].split() == ["time_drift", "0.0300", "0.0200", "0.0300"]
-    assert lines[5] == f"real_time: 2 requested, 2.0000 reached; all events: {path}"
+    assert " 2.0000 " in lines[5]
+    assert lines[5].endswith(f": {path}")
 
 
 def test_without_events_there_is_nothing_to_sum_up(path, caplog):

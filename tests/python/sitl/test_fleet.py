@@ -69,13 +69,13 @@ def test_a_launch_that_is_given_up_closes_its_connection(toy_copter, monkeypatch
 
     async def fail_once_it_is_made(connection, process, timeout_s):
         await connection.made.wait()
-        raise SitlError("it is another one's fault")
+        raise SitlError("deliberate")
 
     monkeypatch.setattr("gradysim.sitl.fleet._connected", fail_once_it_is_made)
-    with pytest.raises(SitlError, match="another one's fault"):
+    with pytest.raises(SitlError, match="deliberate"):
         asyncio.run(fleet.launch(link, 0, HOME, speedup=50, timeout_s=20))
     fleet.close()
-    assert link.lost == "the connection was closed"
+    assert link.lost
 
 
 def test_an_autopilot_that_does_not_connect_is_told(tmp_path):
@@ -96,7 +96,8 @@ def test_a_program_that_does_not_answer_to_help_is_told_and_ends_with_what_it_st
     fleet = new_fleet(program)
     with pytest.raises(SitlError) as caught:
         asyncio.run(launched(fleet))
-    assert str(caught.value).startswith(f"vehicle 0: start: {program} ")
+    assert str(caught.value).startswith("vehicle 0: ")
+    assert f" {program} " in str(caught.value)
     assert caught.value.__cause__ is caught.value.__context__ is None
     assert programs_left_in(tmp_path) == []
     fleet.close()

@@ -116,8 +116,8 @@ def test_what_goes_wrong_is_told(toy_copter, flights_of, wrong, said):
 
 def test_one_that_starts_and_does_nothing_is_given_up(toy_copter, flights_of):
     said = failure_of(flights_of, toy_copter({0: {"gives_up": True}}), timeout_s=1.0)
-    assert said.startswith("vehicle 0: start: ")
-    assert said.endswith("invalid param")
+    assert said.startswith("vehicle 0: ")
+    assert said.endswith(" param")
 
 
 def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
@@ -130,7 +130,7 @@ def test_a_start_below_the_ground_is_refused_before_take_off(toy_copter):
 def test_those_that_do_not_begin_are_ended(toy_copter, tmp_path):
     program = toy_copter({1: {"refuse_arming": True}})
     flights = Flights(nodes(program, (0.0, 0.0, 10.0), (0.0, 9.0, 10.0)), REFERENCE, timeout_s=2.0)
-    with pytest.raises(SitlError, match="vehicle 1: arming"):
+    with pytest.raises(SitlError, match=r"vehicle 1: .*MAV_RESULT_FAILED"):
         flights.begin()
     assert list(tmp_path.glob("gradysim-sitl-*")) == []
 
@@ -147,7 +147,7 @@ def test_nothing_is_left_of_them(toy_copter, flights_of, tmp_path, caplog):
 def test_of_several_failures_one_is_told_and_the_others_are_not_logged(toy_copter, caplog):
     program = toy_copter({number: {"refuse_arming": True} for number in range(2)})
     flights = Flights(nodes(program, (0.0, 0.0, 10.0), (0.0, 9.0, 10.0)), REFERENCE, timeout_s=2.0)
-    with pytest.raises(SitlError, match="vehicle 0: arming"):
+    with pytest.raises(SitlError, match=r"vehicle 0: .*MAV_RESULT_FAILED"):
         flights.begin()
     flights.close()
     del flights

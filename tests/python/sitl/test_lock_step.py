@@ -109,7 +109,7 @@ def test_the_step_nearest_to_a_time_is_the_last_one(played):
 
 def test_an_end_of_the_connection_is_the_autopilots(played):
     played.mavlink.close()
-    with pytest.raises(SitlError, match="vehicle 0: it died"):
+    with pytest.raises(SitlError, match=r"vehicle 0: .*died"):
         played.ours.listen()
     assert played.ours.link.lost == "it died"
 

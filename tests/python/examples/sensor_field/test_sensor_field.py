@@ -68,7 +68,7 @@ def test_the_gateway_hands_every_report_on() -> None:
 
 
 def test_a_report_that_is_too_long_is_refused() -> None:
-    with pytest.raises(Exception, match="a message of 91 bytes does not fit: the longest is 90 bytes"):
+    with pytest.raises(Exception, match=r" 91 .* 90 "):
         result_of("Spread", "*.sensors[*].protocol.payload_bytes = 91")
 
 

@@ -123,7 +123,7 @@ def test_unregistering_a_stranger_is_an_error(callback):
 
 @pytest.mark.parametrize("wrong", [object(), None, "self", Recorder], ids=["object", "None", "text", "class"])
 def test_what_is_no_protocol_has_no_dispatcher(wrong):
-    with pytest.raises(TypeError, match=r"expected a protocol \(a plugin's first argument is `self`\), got "):
+    with pytest.raises(TypeError, match=r"protocol .*`self`"):
         create_dispatcher(wrong)
 
 

@@ -51,7 +51,7 @@ def test_the_world_is_not_to_be_given(label):
 
 
 def test_two_of_one_label():
-    with pytest.raises(ValueError, match=r"'a': Watching and Stepping"):
+    with pytest.raises(ValueError, match=r"'a': Watching.*Stepping"):
         given(Watching("a"), Stepping("a"))
 
 
@@ -61,7 +61,7 @@ def test_asynchronous_handlers_where_they_work():
 
 
 def test_asynchronous_handlers_elsewhere():
-    with pytest.raises(ValueError, match=r"Waiting .* test mode"):
+    with pytest.raises(ValueError, match=r"Waiting .*test"):
         given(Waiting())
 
 

@@ -86,7 +86,7 @@ def test_in_real_time_events_come_when_they_are_due(monkeypatch):
 
 def test_what_a_task_raises_ends_the_simulation():
     async def work(handler):
-        raise RuntimeError("of a task")
+        raise RuntimeError("deliberate")
 
     handler = Asynchronous(lambda handler: work(handler))
     simulator = build(timers(1, 2, 3), handlers=[handler])
@@ -95,7 +95,7 @@ def test_what_a_task_raises_ends_the_simulation():
         handler.task = None
 
     handler.initialize = lambda: (Asynchronous.initialize(handler), forget())
-    with pytest.raises(RuntimeError, match="of a task"):
+    with pytest.raises(RuntimeError, match="deliberate"):
         simulator.start_simulation()
 
 

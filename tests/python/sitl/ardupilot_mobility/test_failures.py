@@ -12,10 +12,9 @@ from python.thorough import some
 def test_refused_arming_ends_it_with_the_reason_that_was_given(toy_copter):
     program = toy_copter({1: {"refuse_arming": True}})
     said = failure_of(program, Flyer, Flyer, uav_api_startup_timeout=2)
-    assert said == (
-        "node 1 (Flyer 1): arming: refused with MAV_RESULT_FAILED; "
-        'the autopilot said: "PreArm: Compass not calibrated"'
-    )
+    assert said.startswith("node 1 (Flyer 1): ")
+    assert "MAV_RESULT_FAILED" in said
+    assert said.endswith(': "PreArm: Compass not calibrated"')
 
 
 @pytest.mark.parametrize(
@@ -40,25 +39,21 @@ def test_a_step_that_fails_is_named(toy_copter, wrong, said, quick_answers):
 def test_death_in_mid_flight_ends_the_simulation_at_once(toy_copter):
     program = toy_copter({1: {"dies_at": 2}})
     simulator = build(program, Flyer, Flyer, duration=3600)
-    with pytest.raises(ArdupilotMobilityException) as caught:
+    with pytest.raises(ArdupilotMobilityException, match=r"^node 1 \(Flyer 1\): .* 7; .*exploded$"):
         simulator.start_simulation()
-    assert str(caught.value) == (
-        "node 1 (Flyer 1): the autopilot ended with status 7; it printed last: the battery exploded"
-    )
     assert simulator.current_time < 3600
 
 
 def test_death_before_the_start_is_noticed_too(toy_copter):
     said = failure_of(toy_copter({0: {"dies_at": "take-off"}}), Flyer)
-    assert said.startswith("node 0 (Flyer 0): the autopilot ended with status 7")
+    assert said.startswith("node 0 (Flyer 0): ")
+    assert "status 7" in said
 
 
 def test_an_autopilot_that_leaves_the_mode_ends_the_simulation(toy_copter):
     said = failure_of(toy_copter({0: {"leaves_at": 2}}), Flyer, duration=3600)
-    assert said == (
-        "node 0 (Flyer 0): flight: it left mode GUIDED for mode number 9; "
-        'the autopilot said: "Battery failsafe"'
-    )
+    assert said.startswith("node 0 (Flyer 0): ")
+    assert all(part in said for part in (" GUIDED ", " 9; ", '"Battery failsafe"'))
 
 
 def test_an_autopilot_that_falls_silent_is_given_up(toy_copter, monkeypatch):
@@ -70,7 +65,7 @@ def test_an_autopilot_that_falls_silent_is_given_up(toy_copter, monkeypatch):
 
 def test_an_exception_of_a_protocol_passes_through(toy_copter):
     def fail(protocol):
-        raise ZeroDivisionError("as it should")
+        raise ZeroDivisionError("deliberate")
 
-    with pytest.raises(ZeroDivisionError, match="as it should"):
+    with pytest.raises(ZeroDivisionError, match="deliberate"):
         fly(toy_copter(), flyer(at_1=fail), Flyer)

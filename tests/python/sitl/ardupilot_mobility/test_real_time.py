@@ -56,7 +56,8 @@ def test_a_simulation_dropped_half_way_leaves_nothing_behind(toy_copter):
 
 def test_one_that_cannot_start_ends_the_others(toy_copter, caplog):
     said = failure_of(toy_copter({0: {"silent": True}, 1: {"exits": True}}), Flyer, Flyer)
-    assert said.startswith("node 1 (Flyer 1): start: the autopilot ended with status 3")
+    assert said.startswith("node 1 (Flyer 1): ")
+    assert "status 3" in said
     gc.collect()
     assert [record.message for record in caplog.records if record.levelno > logging.INFO] == []
 

@@ -32,7 +32,7 @@ def test_who_needs_real_time_is_told(toy_copter, settings):
 def test_without_pymavlink_the_error_says_what_to_install(toy_copter, monkeypatch):
     load_dialect.cache_clear()
     monkeypatch.setitem(sys.modules, "pymavlink.dialects.v20.ardupilotmega", None)
-    with pytest.raises(ModuleNotFoundError, match="pip install pymavlink"):
+    with pytest.raises(ModuleNotFoundError, match=r"pip.*pymavlink"):
         fly(toy_copter(), Flyer)
 
 
@@ -48,7 +48,8 @@ def test_a_node_below_the_ground_is_refused_before_take_off(toy_copter):
 
 def test_a_parameter_that_the_autopilot_does_not_know_is_refused(toy_copter, quick_answers):
     said = failure_of(toy_copter(), Flyer, autopilot_parameters={"NONESUCH": 1})
-    assert said.startswith("node 0 (Flyer 0): parameter NONESUCH = 1: not confirmed")
+    assert said.startswith("node 0 (Flyer 0): ")
+    assert " NONESUCH = 1: " in said
 
 
 @pytest.mark.parametrize(

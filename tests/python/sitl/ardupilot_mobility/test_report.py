@@ -24,5 +24,5 @@ def test_a_folder_that_takes_no_file_is_a_warning(tmp_path, caplog):
     caplog.set_level(logging.INFO)
     write_report(tmp_path / "nowhere" / "report.csv", {3: NodeReport(10, 2, 99.0, 90.0, -0.25)})
     warning, table = caplog.messages
-    assert warning.startswith("The report of the autopilots cannot be written: [Errno 2]")
-    assert table.endswith("Not written to a file")
+    assert "[Errno 2]" in warning
+    assert str(tmp_path) not in table

@@ -132,5 +132,5 @@ def test_a_ground_station_sees_all_vehicles_and_may_command_them(toy_copter, mon
 
         said = failure_of(toy_copter(), flyer(at_2=land), Flyer, duration=3600, ground_station_ip="127.0.0.1")
     assert set(seen) == {1, 2}
-    assert said.startswith("node 1 (Flyer 1): flight: ")
-    assert "9" in said
+    assert said.startswith("node 1 (Flyer 1): ")
+    assert " 9" in said

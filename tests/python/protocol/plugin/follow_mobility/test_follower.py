@@ -163,7 +163,7 @@ def test_a_leader_that_is_not_there_cannot_be_followed(protocol):
         plugin.follow_leader(9)
     hear(protocol, 4)
     hear(protocol, 3)
-    with pytest.raises(FollowMobilityException, match="leader 9 is not available; available: 3, 4"):
+    with pytest.raises(FollowMobilityException, match=r"leader 9 .*: 3, 4"):
         plugin.follow_leader(9)
 
 
@@ -227,7 +227,7 @@ def test_a_malformed_broadcast_is_refused(protocol):
 
 @pytest.mark.parametrize("position", [(1, 2), (1, 2, math.nan), None])
 def test_a_wrong_relative_position_is_refused(protocol, position):
-    with pytest.raises(FollowMobilityException, match="relative position"):
+    with pytest.raises(FollowMobilityException, match="position"):
         follow(protocol).set_relative_position(position)
 
 

@@ -82,7 +82,7 @@ def test_an_order_that_means_nothing_is_refused(flights):
     simulator = built(flights)
     (node, _) = simulator.nodes
     handler = node.protocol_encapsulator.provider.handlers["mobility"]
-    with pytest.raises(MobilityException, match="node 0 was sent to"):
+    with pytest.raises(MobilityException, match=r"^node 0 .*nan"):
         handler.handle_command(GotoCoordsMobilityCommand(float("nan"), 0, 0), node)
 
 

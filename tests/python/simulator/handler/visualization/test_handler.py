@@ -300,10 +300,8 @@ def test_a_simulation_whose_address_is_in_use_goes_on_without_viewers(shown, cap
     assert second.handler.port is None
     assert opened == []
     (warning,) = [record.getMessage() for record in caplog.records if record.levelname == "WARNING"]
-    assert warning.startswith(f"cannot listen for viewers on 127.0.0.1 port {first.handler.port}: ")
-    assert warning.endswith(
-        "; the simulation goes on without viewers: expected a `port` that no other simulation has"
-    )
+    assert f"127.0.0.1 port {first.handler.port}: " in warning
+    assert "`port`" in warning
 
 
 def test_a_host_of_another_machine_is_refused(shown):

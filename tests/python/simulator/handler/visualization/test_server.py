@@ -261,4 +261,3 @@ def test_a_failure_of_the_server_ends_a_pause_and_is_told(commands, monkeypatch,
     server._running.clear()
     server._run()
     assert (server.is_paused, len(caplog.messages)) == (False, 1)
-    assert "the run goes on without it" in caplog.text
