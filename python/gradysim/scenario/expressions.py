@@ -157,6 +157,7 @@ class Bracketed(tuple[Any, ...]):
     __slots__ = ()
 
 
+@lru_cache(maxsize=1024)
 def differs_between_parameters(text: str) -> bool:
     """Whether a value draws or asks for an index, so that each parameter has its own."""
     return bool(distribution_in(text)) or any(match[1] for match in _INDEX_OR_STRING.finditer(text))

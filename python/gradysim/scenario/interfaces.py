@@ -41,10 +41,19 @@ class InterfaceBuilder:
         self._settings = settings
         self._errors = errors
         self._known: dict[object, InterfaceSpec] = {}
+        self._of_kind: dict[NodeKind, tuple[InterfaceSpec, ...]] = {}
         self._resolution = resolution
 
     def interfaces(self, node: str, kind: NodeKind) -> tuple[InterfaceSpec, ...]:
         """Return the interfaces of a node."""
+        if kind.differing.isdisjoint(STRUCTS):
+            known = self._of_kind.get(kind)
+            if known is None:
+                known = self._of_kind[kind] = self._interfaces(node, kind)
+            return known
+        return self._interfaces(node, kind)
+
+    def _interfaces(self, node: str, kind: NodeKind) -> tuple[InterfaceSpec, ...]:
         rows: list[list[Row]] = [[] for _ in range(kind.interface_count)]
         for row in kind.rows.values():
             if row.key in _KEYS:

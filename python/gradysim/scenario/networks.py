@@ -19,7 +19,7 @@ from gradysim.scenario.obstacles import ObstacleSpec, read_obstacles
 from gradysim.scenario.options import is_ignored, is_option
 from gradysim.scenario.parameter_types import ParameterType
 from gradysim.scenario.protocols import ProtocolLoader
-from gradysim.scenario.resolution import resolve
+from gradysim.scenario.resolution import Resolution, resolve
 from gradysim.scenario.runs import FileHashes, UnreadVariables, line_instead, unread_variables
 from gradysim.scenario.scenario import CommunicationMediumSpec
 from gradysim.scenario.sweep import IterationVariable, depends_on_run, substitute, substituted
@@ -30,15 +30,15 @@ Key = tuple[int, ...]
 """Places of the values of a run's network."""
 
 
-class Network(NamedTuple):
-    """The network of a run: nodes, medium and obstacles.
+class ResolvedNetwork(NamedTuple):
+    """The lines of a run's network, before their values are read.
 
     Attributes:
-        fields: Those of a Scenario, by name.
+        resolution: Its rows.
         lines_of_other_runs: Lines about nodes that this run does not have, and other runs may have.
     """
 
-    fields: Mapping[str, Any]
+    resolution: Resolution
     lines_of_other_runs: Sequence[Source]
 
 
@@ -46,7 +46,7 @@ class Networks:
     """Reads the networks of runs. Those that were read for a check are kept."""
 
     def __init__(self, lines: Sequence[Entry], folder: Path, instead: str, source: Source) -> None:
-        """Prepare for the first run. `lines` have variables; for the others see `read_network`."""
+        """Prepare for the first run. `lines` have variables; for the others see `resolve_network`."""
         self._lines = lines
         self._instead = instead
         self._source = source
@@ -54,19 +54,23 @@ class Networks:
         self._parameters = [entry for entry in lines if not is_option(entry) and not is_ignored(entry)]
         self._known: dict[tuple[Key, int | None], Mapping[str, Any]] = {}  # no seed: it is the same for all
         self._right_for_all_seeds: set[Key] = set()
-        self._last: Network | None = None
+        self._resolved: dict[Key, ResolvedNetwork] = {}  # those that are the same for all seeds
+        self._last: ResolvedNetwork | None = None
         self._of_other_runs: list[Sequence[Source]] = []
         self._read: set[Source] = set()
         self._types: dict[Source, set[ParameterType]] = {}
 
     def check(self, key: Key, variables: Mapping[str, str], seed: int) -> None:
         """Read the network of a run and keep it. Raises ConfigError for anything that is wrong."""
-        settings = SettingReader(seed)
-        network = self._last = self._network(settings, variables)
+        settings, errors = SettingReader(seed), ErrorCollector()
+        resolved = self._last = self._resolution_of(key, variables, settings, errors)
+        if not settings.has_values_of_parameters():
+            self._resolved[key] = resolved
+        fields = build_network(resolved.resolution, settings, self._hashes, errors)
         if settings.is_right_for_all_seeds():
             self._right_for_all_seeds.add(key)
-        self._known[key, self._seed_of_draws(variables, seed)] = network.fields
-        self._of_other_runs.append(network.lines_of_other_runs)
+        self._known[key, self._seed_of_draws(variables, seed)] = fields
+        self._of_other_runs.append(resolved.lines_of_other_runs)
         self._read |= settings.lines_read()
         for line, kind in settings.types_read():
             self._types.setdefault(line, set()).add(kind)
@@ -93,15 +97,23 @@ class Networks:
     def of_run(self, key: Key, variables: Mapping[str, str], seed: int) -> Mapping[str, Any]:
         """Return the fields of a run's Scenario that are its network. Raises ConfigError."""
         known = self._known.get((key, None)) or self._known.get((key, seed))
-        return known or self._network(SettingReader(seed), variables).fields
+        if known is None:
+            settings, errors = SettingReader(seed), ErrorCollector()
+            resolved = self._resolution_of(key, variables, settings, errors)
+            known = build_network(resolved.resolution, settings, self._hashes, errors)
+        return known
 
     def _seed_of_draws(self, variables: Mapping[str, str], seed: int) -> int | None:
         draws = any(distribution_in(substitute(entry, variables).text) for entry in self._parameters)
         return seed if draws else None
 
-    def _network(self, settings: SettingReader, variables: Mapping[str, str]) -> Network:
+    def _resolution_of(
+        self, key: Key, variables: Mapping[str, str], settings: SettingReader, errors: ErrorCollector
+    ) -> ResolvedNetwork:
+        if key in self._resolved:
+            return self._resolved[key]
         entries = substituted(self._lines, variables)
-        return read_network(entries, settings, self._loader, self._hashes, self._instead, self._source)
+        return resolve_network(entries, settings, self._loader, errors, self._instead, self._source)
 
     def check_lines_of_other_runs(self) -> None:
         """Raise ConfigError for the lines that all checked networks leave to other runs."""
@@ -117,25 +129,24 @@ class Networks:
         """Return the variables that no checked network has read."""
         assert self._last is not None
         return tuple(
-            UnreadVariables(line, names, line_instead(line, self._last.fields["resolution"]))
+            UnreadVariables(line, names, line_instead(line, self._last.resolution))
             for line, names in unread_variables(self._lines, variables, self._read).items()
         )
 
 
-def read_network(
+def resolve_network(
     entries: list[Entry],
     settings: SettingReader,
     loader: ProtocolLoader,
-    hashes: FileHashes,
+    errors: ErrorCollector,
     instead: str,
     source: Source,
-) -> Network:
-    """Read the network of a run, whose entries have values instead of variables.
+) -> ResolvedNetwork:
+    """Return the lines of a run's network, whose entries have values instead of variables.
 
     `instead` is the end of messages about nodes that do not exist, `source` the place of the configuration.
-    Raises ConfigError for all that is wrong.
+    `errors` takes the errors. Raises ConfigError for all that is wrong if there are no nodes.
     """
-    errors = ErrorCollector()
     lines = Lines(entries)
     groups = find_groups(lines, settings, errors)
     lines_of_other_runs = check_names(lines, groups, errors)
@@ -147,6 +158,16 @@ def read_network(
         errors.raise_all()
         raise _no_nodes(groups, instead, source)
     check_parameters(resolution, errors)
+    return ResolvedNetwork(resolution, lines_of_other_runs)
+
+
+def build_network(
+    resolution: Resolution, settings: SettingReader, hashes: FileHashes, errors: ErrorCollector
+) -> dict[str, Any]:
+    """Return the fields of a Scenario that are its network: nodes, medium and obstacles.
+
+    Raises ConfigError for all that is wrong, and for what `errors` has.
+    """
 
     def read(struct: str) -> dict[str, Setting]:
         return read_struct(struct, resolution.of_network.values(), settings, errors)
@@ -171,22 +192,19 @@ def read_network(
     chosen = {kind.protocol for kind in resolution.kinds.values()}
     files = [file for protocol in chosen for file in protocol.files]
     files += [*obstacle_files, *settings.files()]
-    return Network(
-        {
-            "nodes": nodes,
-            "medium": medium,
-            "wind": {field: float(setting.value) for field, setting in wind.items()},
-            "communication_medium": CommunicationMediumSpec(
-                **{field: float(setting.value) for field, setting in communication.items()},
-                range_source=given.source if (given := communication.get("transmission_range_m")) else None,
-            ),
-            "reference_coordinates": (latitude, longitude, altitude),
-            "obstacles": (*obstacles, *chain.from_iterable(obstacle_files.values())),
-            "file_hashes": hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
-            "resolution": resolution,
-        },
-        lines_of_other_runs,
-    )
+    return {
+        "nodes": nodes,
+        "medium": medium,
+        "wind": {field: float(setting.value) for field, setting in wind.items()},
+        "communication_medium": CommunicationMediumSpec(
+            **{field: float(setting.value) for field, setting in communication.items()},
+            range_source=given.source if (given := communication.get("transmission_range_m")) else None,
+        ),
+        "reference_coordinates": (latitude, longitude, altitude),
+        "obstacles": (*obstacles, *chain.from_iterable(obstacle_files.values())),
+        "file_hashes": hashes.of(files, file_of_native(protocol.cls for protocol in chosen)),
+        "resolution": resolution,
+    }
 
 
 def _no_nodes(groups: Sequence[Group], instead: str, source: Source) -> ConfigError:

@@ -4,7 +4,7 @@ Nodes with the same lines in force share the mappings made from them, so a thous
 more than one.
 """
 
-from collections.abc import Mapping, Set
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from gradysim.protocol.position import LARGEST_COORDINATE_M, Position
@@ -24,7 +24,22 @@ _NO_GRID = Grid(1, (0.0, 0.0), (0.0, 0.0))
 
 @dataclass(frozen=True, eq=False)
 class _Common:
-    """What nodes of one kind have in common.
+    """What nodes of one kind have in common, unless lines draw it."""
+
+    protocol_parameters: Mapping[str, object]
+    protocol_sources: Mapping[str, Source]
+    mobility: Mapping[str, Setting]
+    is_in_grid: bool
+    node: Mapping[str, Setting]
+    computer: Mapping[str, Setting]
+    wlan: tuple[InterfaceSpec, ...]
+    autopilot: AutopilotSpec | None
+    idle_autopilot: Mapping[str, Setting]
+
+
+@dataclass(frozen=True, eq=False)
+class _Start:
+    """How nodes of one kind are placed.
 
     Attributes:
         row: Start and step in meters for each axis, or None on an axis of a grid.
@@ -33,18 +48,10 @@ class _Common:
         grid_line: The place that asks for the grid, or None.
     """
 
-    protocol_parameters: Mapping[str, object]
-    protocol_sources: Mapping[str, Source]
     row: tuple[tuple[float, float] | None, ...]
     steps: tuple[Line | None, ...]
     grid_settings: Mapping[str, Setting]
     grid_line: Source | None
-    mobility: Mapping[str, Setting]
-    node: Mapping[str, Setting]
-    computer: Mapping[str, Setting]
-    wlan: tuple[InterfaceSpec, ...]
-    autopilot: AutopilotSpec | None
-    idle_autopilot: Mapping[str, Setting]
 
 
 def build_nodes(
@@ -59,14 +66,14 @@ def build_nodes(
             if kind is None:
                 break
             common = builder.common(name, kind)
-            grid = builder.grid(common, group)
+            start = builder.start(name, kind, common.is_in_grid)
+            grid = builder.grid(start, group)
             x, y, z = (
                 builder.coordinate_m(name, index, axis, row, step)
                 if row is not None
                 else grid.coordinate_m(index, axis)
-                for axis, row, step in zip(AXES, common.row, common.steps, strict=True)
+                for axis, row, step in zip(AXES, start.row, start.steps, strict=True)
             )
-            place = builder.start(common.mobility, (x, y, z))
             nodes.append(
                 NodeSpec(
                     id=len(nodes),
@@ -75,7 +82,7 @@ def build_nodes(
                     index=index,
                     protocol=kind.protocol.cls,
                     protocol_parameters=common.protocol_parameters,
-                    initial_position=place,
+                    initial_position=builder.position(common.mobility, (x, y, z)),
                     mobility=common.mobility,
                     wlan=common.wlan,
                     protocol_sources=common.protocol_sources,
@@ -94,30 +101,41 @@ class _NodeBuilder:
         self._errors = errors
         self._interfaces = InterfaceBuilder(resolution, settings, errors)
         self._common: dict[NodeKind, _Common] = {}
+        self._starts: dict[tuple[NodeKind, bool], _Start] = {}
+        self._placements: dict[tuple[NodeKind, bool], tuple[Placement, list[Row], list[Row]]] = {}
         self._structs: dict[object, Mapping[str, Setting]] = {}
         self._kept: list[Mapping[str, Setting]] = []  # so that their ids are not reused
         self._sources: dict[NodeKind, Mapping[str, Source]] = {}
-        self._grids: dict[tuple[_Common, str], Grid] = {}
+        self._grids: dict[tuple[_Start, str], Grid] = {}
 
     def common(self, name: str, kind: NodeKind) -> _Common:
         """Return what a node has in common with those of its kind, or its own if lines draw its values."""
         common = self._common.get(kind)
         if common is None:
             common = self._make(name, kind)
-            if not kind.differs:
+            if kind.differing <= {"position"}:
                 self._common[kind] = common
         return common
 
-    def grid(self, common: _Common, group: Group) -> Grid:
+    def start(self, name: str, kind: NodeKind, is_in_grid: bool) -> _Start:
+        """Return how a node is placed."""
+        start = self._starts.get((kind, is_in_grid))
+        if start is None:
+            start = self._make_start(name, kind, is_in_grid)
+            if "position" not in kind.differing:
+                self._starts[kind, is_in_grid] = start
+        return start
+
+    def grid(self, start: _Start, group: Group) -> Grid:
         """Return the grid of those nodes of a group; an empty one if they are not in a grid."""
-        if common.grid_line is None:
+        if start.grid_line is None:
             return _NO_GRID
-        grid = self._grids.get((common, group.name))
+        grid = self._grids.get((start, group.name))
         if grid is None:
             grid = _NO_GRID
             with self._errors.collecting():
-                grid = read_grid(common.grid_settings, group, common.grid_line)
-            self._grids[common, group.name] = grid
+                grid = read_grid(start.grid_settings, group, start.grid_line)
+            self._grids[start, group.name] = grid
         return grid
 
     def coordinate_m(
@@ -132,7 +150,7 @@ class _NodeBuilder:
         self._errors.add(ConfigError.at(step.entry.source, text, expected=expected))
         return 0.0
 
-    def start(self, mobility: Mapping[str, Setting], place: Position) -> Position:
+    def position(self, mobility: Mapping[str, Setting], place: Position) -> Position:
         """Return where a node starts: on its path if it has one, otherwise at `place`."""
         with self._errors.collecting():
             if path := path_of(mobility, place):
@@ -146,18 +164,11 @@ class _NodeBuilder:
     def _make(self, name: str, kind: NodeKind) -> _Common:
         wlan = self._interfaces.interfaces(name, kind)
         parameters = self._read("protocol", name, kind)
-        position = rows_in_force("position", kind.rows.values())
-        lines = {field: row.line for field, row in position.items()}
         mobility = self._read("mobility", name, kind)
         typename = mobility.get("typename")
-        if typename is not None and typename.value == STATIC_GRID:
+        is_in_grid = typename is not None and typename.value == STATIC_GRID
+        if is_in_grid:
             mobility = self._with_typename(mobility, STATIONARY)
-            lines[STATIC_GRID] = kind.rows["mobility.typename"].line
-        placement = Placement(lines)
-        error_count = len(self._errors.errors)
-        grid_settings = self._position(f"{name}.", position, placement.idle)
-        has_position = len(self._errors.errors) == error_count
-        values = {field: float(setting.value) for field, setting in grid_settings.items()}
         idle_autopilot = self._read("autopilot", name, kind)
         autopilot = None
         with self._errors.collecting():
@@ -167,11 +178,8 @@ class _NodeBuilder:
         return _Common(
             {field: setting.value for field, setting in parameters.items()},
             self._sources_of(kind, parameters),
-            tuple(placement.row(axis, values) for axis in AXES),
-            tuple(lines.get(f"line_step_{axis}") for axis in AXES),
-            grid_settings,
-            placement.grid_line if has_position else None,
-            mobility=mobility,
+            mobility,
+            is_in_grid,
             node=self._read("node", name, kind),
             computer=self._read("computer", name, kind),
             wlan=wlan,
@@ -179,12 +187,39 @@ class _NodeBuilder:
             idle_autopilot=idle_autopilot,
         )
 
+    def _make_start(self, name: str, kind: NodeKind, is_in_grid: bool) -> _Start:
+        placement, idle, in_use = self._placement(kind, is_in_grid)
+        error_count = len(self._errors.errors)
+        checks = self._settings.for_checks()
+        settings = read_struct("position", idle, checks, self._errors, f"{name}.")
+        settings |= read_struct("position", in_use, self._settings, self._errors, f"{name}.")
+        has_position = len(self._errors.errors) == error_count
+        values = {field: float(setting.value) for field, setting in settings.items()}
+        return _Start(
+            tuple(placement.row(axis, values) for axis in AXES),
+            placement.steps,
+            settings,
+            placement.grid_line if has_position else None,
+        )
+
+    def _placement(self, kind: NodeKind, is_in_grid: bool) -> tuple[Placement, list[Row], list[Row]]:
+        """Return how lines place the nodes of a kind, and its rows that are only checked and those in use."""
+        placed = self._placements.get((kind, is_in_grid))
+        if placed is None:
+            rows = rows_in_force("position", kind.by_struct.get("position", ()))
+            lines = {field: row.line for field, row in rows.items()}
+            if is_in_grid:
+                lines[STATIC_GRID] = kind.rows["mobility.typename"].line
+            placement = Placement(lines)
+            idle = [row for field, row in rows.items() if field in placement.idle]
+            in_use = [row for field, row in rows.items() if field not in placement.idle]
+            placed = self._placements[kind, is_in_grid] = (placement, idle, in_use)
+        return placed
+
     def _read(self, struct: str, name: str, kind: NodeKind) -> Mapping[str, Setting]:
         """Return the fields of a struct; nodes of all kinds with the same lines share the mapping."""
-        rows = [
-            row for row in kind.rows.values() if row.key.struct == struct and row.key not in PROTOCOL_KEYS
-        ]
-        if any(row.line.differs for row in rows):
+        rows = [row for row in kind.by_struct.get(struct, ()) if row.key not in PROTOCOL_KEYS]
+        if struct in kind.differing:
             return read_struct(struct, rows, self._settings, self._errors, f"{name}.")
         known = (struct, *((row.path, row.line) for row in rows))
         if known not in self._structs:
@@ -204,10 +239,3 @@ class _NodeBuilder:
             sources = {field: setting.source for field, setting in parameters.items()}
             self._sources[kind] = {"": kind.protocol.source, **sources}
         return self._sources[kind]
-
-    def _position(self, prefix: str, rows: Mapping[str, Row], idle: Set[str]) -> dict[str, Setting]:
-        """Read the settings of a node's initial position; those that are not in force are only checked."""
-        checked = [row for field, row in rows.items() if field in idle]
-        others = [row for field, row in rows.items() if field not in idle]
-        settings = read_struct("position", checked, self._settings.for_checks(), self._errors, prefix)
-        return settings | read_struct("position", others, self._settings, self._errors, prefix)

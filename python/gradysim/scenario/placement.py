@@ -33,6 +33,7 @@ class Placement:
 
     Attributes:
         idle: The fields without effect on the initial position.
+        steps: The line of the step of a row, for each axis.
         grid_line: The line that asks for a grid, or None.
     """
 
@@ -49,6 +50,7 @@ class Placement:
                 of_grid += lines[_GRID]
         if of_grid:
             self.grid_line = min(of_grid, key=lambda line: line.order).entry.source
+        self.steps = tuple(in_force.get(f"line_step_{axis}") for axis in AXES)
         self.idle = {
             field.format(axis)
             for axis, chosen in self._ways.items()

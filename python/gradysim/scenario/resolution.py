@@ -5,9 +5,9 @@ sizes of groups, the protocols of nodes, the numbers of interfaces and obstacles
 other values are read by the modules that build the scenario.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache, lru_cache
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
@@ -57,10 +57,19 @@ class NodeKind:
     interface_count: int
     rows: Rows
 
-    @property
-    def differs(self) -> bool:
-        """Whether some values differ between the nodes: they are drawn, or depend on an index."""
-        return any(row.line.differs for row in self.rows.values())
+    @cached_property
+    def by_struct(self) -> Mapping[str, Sequence[Row]]:
+        """The rows by the struct of their key."""
+        rows: dict[str, list[Row]] = {}
+        for row in self.rows.values():
+            rows.setdefault(row.key.struct, []).append(row)
+        return rows
+
+    @cached_property
+    def differing(self) -> frozenset[str]:
+        """The structs with values that differ between the nodes: they are drawn, or depend on an index."""
+        rows = self.rows.values()
+        return frozenset(row.key.struct for row in rows if row.line.differs)
 
 
 @dataclass(frozen=True, eq=False)

@@ -42,7 +42,7 @@ class SettingReader:
         self._settings: dict[tuple[int, int], tuple[Entry, ParameterType, Setting]] = {}
         self._files: dict[str, None] = {}  # in their order, each once
         self._read: dict[int, Entry] = {}
-        self._right_for_all_seeds: dict[tuple[str, ParameterType], bool] = {}  # of drawn values
+        self._right_for_all_seeds: dict[tuple[int, int], bool] = {}  # of drawn values
 
     def setting(self, entry: Entry, kind: ParameterType, path: str = "") -> Setting:
         """Return the value of an entry. ConfigError, with its place, if it is not of that type.
@@ -55,8 +55,8 @@ class SettingReader:
             self._read[id(entry)] = entry
             if path and differs_between_parameters(entry.text):
                 own = read_scalar(entry, kind, path, ParameterContext(self._seed, path))
-                if (entry.text, kind) not in self._right_for_all_seeds:
-                    self._right_for_all_seeds[entry.text, kind] = is_right_for_all_seeds(entry.text, kind)
+                if key not in self._right_for_all_seeds:
+                    self._right_for_all_seeds[key] = is_right_for_all_seeds(entry.text, kind)
                 return self._noted(Setting(own, entry.source), kind)
             # Entry and type are kept beside the value, so that their ids are not reused.
             setting = self._noted(Setting(read_scalar(entry, kind, path), entry.source), kind)
@@ -82,6 +82,10 @@ class SettingReader:
     def is_right_for_all_seeds(self) -> bool:
         """Whether runs that differ from this one only in their seed are valid if this one is."""
         return all(self._right_for_all_seeds.values())
+
+    def has_values_of_parameters(self) -> bool:
+        """Whether a value that was read is drawn, or depends on an index."""
+        return bool(self._right_for_all_seeds)
 
     def for_checks(self) -> "SettingReader":
         """Return another reader for the same run. It shares only what it finds out about draws."""

@@ -7,7 +7,7 @@ import pytest
 from gradysim.scenario import ConfigError, load_scenarios, networks
 from gradysim.scenario.errors import OF_SCRIPT, ConfigErrors
 from gradysim.scenario.load import Study
-from gradysim.scenario.networks import read_network
+from gradysim.scenario.networks import build_network
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
 from gradysim.scenario.unknown_keys import NoSuchNodeError
 from python.calls import count_calls
@@ -439,7 +439,7 @@ def test_runs_whose_nodes_only_stand_elsewhere_are_checked_once(
     folder: Any, monkeypatch: pytest.MonkeyPatch, added: str, count: int
 ) -> None:
     read: list[object] = []
-    monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
+    monkeypatch.setattr(networks, "build_network", lambda *given: read.append(given) or build_network(*given))
     assert len(checked(folder, added).checked_in_full()) == len(read) == count
 
 
@@ -469,7 +469,7 @@ THREE_SWEEPS = (
 def networks_read(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     """Return a list that grows by one element for each network that is read."""
     read: list[object] = []
-    monkeypatch.setattr(networks, "read_network", lambda *given: read.append(given) or read_network(*given))
+    monkeypatch.setattr(networks, "build_network", lambda *given: read.append(given) or build_network(*given))
     return read
 
 
