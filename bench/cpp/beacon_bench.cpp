@@ -81,10 +81,10 @@ public:
     std::size_t size() const { return networks_.size(); }
     double seconds() const { return static_cast<double>(seconds_); }
     double delivered() const {
-        constexpr auto fate = static_cast<std::size_t>(netsim::FrameFate::delivered);
+        constexpr auto outcome = static_cast<std::size_t>(netsim::FrameOutcome::delivered);
         std::uint64_t sum = 0;
         for (const auto& network : networks_) {
-            sum += network->frame_fates().counts(netsim::FrameKind::broadcast, false)[fate];
+            sum += network->frame_outcomes().counts(netsim::FrameKind::broadcast, false)[outcome];
         }
         return static_cast<double>(sum);
     }

@@ -152,8 +152,8 @@ std::map<std::string, std::size_t> samples_by_layer() {
 }
 
 double delivered(const netsim::Network& network) {
-    constexpr auto fate = static_cast<std::size_t>(netsim::FrameFate::delivered);
-    return static_cast<double>(network.frame_fates().counts(netsim::FrameKind::broadcast, false)[fate]);
+    constexpr auto outcome = static_cast<std::size_t>(netsim::FrameOutcome::delivered);
+    return static_cast<double>(network.frame_outcomes().counts(netsim::FrameKind::broadcast, false)[outcome]);
 }
 
 void profile(std::int64_t nodes) {

@@ -43,9 +43,9 @@ def scenario(nodes: int) -> Scenario:
 def native(nodes: int) -> RunResult:
     """Run it once and print the figures."""
     result = run(scenario(nodes))
-    broadcast = result.fates["frames"]["broadcast"]
+    broadcast = result.outcomes["frames"]["broadcast"]
     print(
-        f"    {nodes} nodes: {result.cpu_s:.3f} s, {result.fates['messages']['broadcast']['sent']} sent, "
+        f"    {nodes} nodes: {result.cpu_s:.3f} s, {result.outcomes['messages']['broadcast']['sent']} sent, "
         f"{broadcast['delivered']} delivered, {result.events / result.cpu_s / 1e6:.1f} M events/s",
         flush=True,
     )

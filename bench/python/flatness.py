@@ -40,7 +40,7 @@ def ns_per_frame(nodes: int, seed: int) -> float:
     command = [sys.executable, "-m", "gradysim", "run", str(CONFIG), "--seed", str(seed), "--json"]
     output = subprocess.run([*command, *arguments(nodes)], capture_output=True, text=True, check=True).stdout
     result = json.loads(output)
-    return float(result["cpu_s"] / result["fates"]["frames"]["broadcast"]["delivered"] * 1e9)
+    return float(result["cpu_s"] / result["outcomes"]["frames"]["broadcast"]["delivered"] * 1e9)
 
 
 def main() -> bool:

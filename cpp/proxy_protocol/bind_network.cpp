@@ -27,26 +27,27 @@ py::dict named_counts(const Counts& counts, const Names& names) {
     return result;
 }
 
-py::dict frame_fates(const Network& network) {
+py::dict frame_outcomes(const Network& network) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
         const auto kind = static_cast<FrameKind>(index);
         const std::string name = frame_kind_names[index];
-        result[py::str(name)] = named_counts(network.frame_fates().counts(kind, false), frame_fate_names);
+        result[py::str(name)] =
+            named_counts(network.frame_outcomes().counts(kind, false), frame_outcome_names);
         if (kind != FrameKind::broadcast) {
             result[py::str(name + " overheard")] =
-                named_counts(network.frame_fates().counts(kind, true), frame_fate_names);
+                named_counts(network.frame_outcomes().counts(kind, true), frame_outcome_names);
         }
     }
     return result;
 }
 
-py::dict frame_fates_at(const Network& network, NodeId receiver) {
+py::dict frame_outcomes_at(const Network& network, NodeId receiver) {
     py::dict result;
     for (std::size_t index = 0; index < frame_kind_count; ++index) {
         const auto kind = static_cast<FrameKind>(index);
         result[frame_kind_names[index]] = named_counts(
-            network.frame_fates().counts_at(network.node(receiver).id(), kind), frame_fate_names);
+            network.frame_outcomes().counts_at(network.node(receiver).id(), kind), frame_outcome_names);
     }
     return result;
 }
@@ -54,7 +55,7 @@ py::dict frame_fates_at(const Network& network, NodeId receiver) {
 py::dict interferers_at(const Network& network, NodeId receiver) {
     py::dict result;
     for (const auto& [interferer, copies] :
-         network.frame_fates().interferers_at(network.node(receiver).id())) {
+         network.frame_outcomes().interferers_at(network.node(receiver).id())) {
         result[py::int_(interferer)] = copies;
     }
     return result;
@@ -74,25 +75,26 @@ py::dict frames_by_bitrate(const Network& network, NodeId node) {
     return result;
 }
 
-template <typename Fates>
-py::dict named_fates(const Fates& fates) {
+template <typename Outcomes>
+py::dict named_outcomes(const Outcomes& outcomes) {
     py::dict result;
     for (std::size_t index = 0; index < message_kind_count; ++index) {
         result[message_kind_names[index]] =
-            named_counts(fates.counts(static_cast<MessageKind>(index)), message_fate_names);
+            named_counts(outcomes.counts(static_cast<MessageKind>(index)), message_outcome_names);
     }
     return result;
 }
 
-py::dict message_fates(const Network& network) {
-    return named_fates(network.message_fates());
+py::dict message_outcomes(const Network& network) {
+    return named_outcomes(network.message_outcomes());
 }
 
-py::dict message_fates_from(const Network& network, NodeId sender) {
+py::dict message_outcomes_from(const Network& network, NodeId sender) {
     py::dict result;
     std::size_t index = 0;
     for (const auto& interface : network.node(sender).interfaces()) {
-        result[py::str("wlan[" + std::to_string(index++) + "]")] = named_fates(interface->message_fates());
+        result[py::str("wlan[" + std::to_string(index++) + "]")] =
+            named_outcomes(interface->message_outcomes());
     }
     return result;
 }
@@ -156,12 +158,12 @@ void bind_network(py::module_& module) {
         .def_property_readonly("event_count", &Network::event_count)
         .def_property_readonly("pending_count", &Network::pending_count)
         .def_property_readonly("fingerprint", &fingerprint)
-        .def("frame_fates", &frame_fates)
-        .def("frame_fates_at", &frame_fates_at, py::arg("receiver"))
+        .def("frame_outcomes", &frame_outcomes)
+        .def("frame_outcomes_at", &frame_outcomes_at, py::arg("receiver"))
         .def("interferers_at", &interferers_at, py::arg("receiver"))
         .def("frames_by_bitrate", &frames_by_bitrate, py::arg("node"))
-        .def("message_fates", &message_fates)
-        .def("message_fates_from", &message_fates_from, py::arg("sender"))
+        .def("message_outcomes", &message_outcomes)
+        .def("message_outcomes_from", &message_outcomes_from, py::arg("sender"))
         .def("message_delays", &message_delays);
 }
 

@@ -40,10 +40,10 @@ py::dict as_python(const ReplayChunk& chunk) {
     py::list nodes;
     py::list outcomes;
     py::list counts;
-    for (const ReplayChunk::Outcome& outcome : chunk.outcomes) {
-        nodes.append(outcome.node);
-        outcomes.append(static_cast<int>(outcome.fate));
-        counts.append(outcome.count);
+    for (const ReplayChunk::OutcomeCount& of_node : chunk.outcomes) {
+        nodes.append(of_node.node);
+        outcomes.append(static_cast<int>(of_node.outcome));
+        counts.append(of_node.count);
     }
     using namespace py::literals;
     return py::dict("start_ns"_a = chunk.start.ps() / 1000, "end_ns"_a = chunk.end.ps() / 1000,

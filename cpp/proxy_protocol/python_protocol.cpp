@@ -48,11 +48,11 @@ void PythonProtocol::finish() {
 }
 
 void PythonProtocol::handle_failed_message(const netsim::Payload& message, netsim::NodeId destination,
-                                           netsim::MessageFate reason) {
+                                           netsim::MessageOutcome reason) {
     const py::object text = text_for(handle_failed_message_, *message);
     const py::object receiver =
         destination == netsim::broadcast_id ? py::none() : py::object(py::int_(destination));
-    const py::str why(netsim::message_fate_names[static_cast<std::size_t>(reason)]);
+    const py::str why(netsim::message_outcome_names[static_cast<std::size_t>(reason)]);
     PyObject* arguments[] = {nullptr, protocol_.ptr(), text.ptr(), receiver.ptr(), why.ptr()};
     check(PyObject_VectorcallMethod(handle_failed_message_.ptr(), arguments + 1,
                                     4 | PY_VECTORCALL_ARGUMENTS_OFFSET, nullptr),

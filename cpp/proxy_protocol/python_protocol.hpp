@@ -25,7 +25,7 @@ public:
     void finish() override;
     bool wants_failed_messages() const override { return wants_failed_messages_; }
     void handle_failed_message(const netsim::Payload& message, netsim::NodeId destination,
-                               netsim::MessageFate reason) override;
+                               netsim::MessageOutcome reason) override;
 
 private:
     void call(pybind11::handle method);

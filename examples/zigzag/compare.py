@@ -25,7 +25,7 @@ MODES: dict[str, Callable[[Scenario], RunResult]] = {
     "integrated": gradysim.integrated.run.run,
 }
 # Outcomes of receptions within reach of the destination: their names in results, and their meaning.
-FATES = {
+OUTCOMES = {
     "delivered": "frames delivered",
     "noise": "lost to noise",
     "interference": "lost to interference",
@@ -42,13 +42,13 @@ def collected(result: RunResult) -> int:
     return value
 
 
-def frames_with(fate: str, fates: Outcomes) -> str:
+def frames_with(outcome: str, outcomes: Outcomes) -> str:
     """Return the number of receptions with this outcome at their destinations; a dash if it does not exist.
 
     Acknowledgements are left out.
     """
-    frames = fates["frames"]
-    counts = [frames[kind][fate] for kind in ("broadcast", "unicast") if fate in frames[kind]]
+    frames = outcomes["frames"]
+    counts = [frames[kind][outcome] for kind in ("broadcast", "unicast") if outcome in frames[kind]]
     return f"{sum(counts):,}" if counts else "-"
 
 
@@ -64,8 +64,8 @@ def comparison(scenario: Scenario, results: dict[str, RunResult]) -> Table:
     table.add_row(
         "readings at the ground station", *(f"{collected(result):,}" for result in ran), style="bold"
     )
-    for fate, text in FATES.items():
-        table.add_row(text, *(frames_with(fate, result.fates) for result in ran))
+    for outcome, text in OUTCOMES.items():
+        table.add_row(text, *(frames_with(outcome, result.outcomes) for result in ran))
     table.add_row("wall time", *(f"{result.wall_s:.1f} s" for result in ran))
     return table
 

@@ -320,13 +320,13 @@ class Network:
     @property
     def fingerprint(self) -> str:
         """16 hexadecimal digits: a hash of what happened on the air and in the protocols."""
-    def frame_fates(self) -> dict[str, dict[str, int]]:
-        """Copies of frames, {kind: {fate: count}}.
+    def frame_outcomes(self) -> dict[str, dict[str, int]]:
+        """Copies of frames, {kind: {outcome: count}}.
 
         Kinds: "broadcast", "unicast", "unicast overheard", "ack", "ack overheard", "rts",
         "rts overheard", "cts", "cts overheard".
         """
-    def frame_fates_at(self, receiver: int) -> dict[str, dict[str, int]]:
+    def frame_outcomes_at(self, receiver: int) -> dict[str, dict[str, int]]:
         """The same for the copies at one node that were strong enough to be received, for any destination.
 
         Kinds: "broadcast", "unicast", "ack", "rts", "cts". "below_sensitivity" and "in_air" are not kept for
@@ -340,10 +340,10 @@ class Network:
         """
     def frames_by_bitrate(self, node: int) -> dict[int, int]:
         """{bits per second: unicast frames of that node, with retries}; empty without a rate control."""
-    def message_fates(self) -> dict[str, dict[str, int]]:
-        """Messages handed to the MAC: {"broadcast" | "unicast": {fate: count}}."""
-    def message_fates_from(self, sender: int) -> dict[str, dict[str, dict[str, int]]]:
-        """The same for each interface of one node: {"wlan[0]": {"broadcast" | "unicast": {fate: count}}}."""
+    def message_outcomes(self) -> dict[str, dict[str, int]]:
+        """Messages handed to the MAC: {"broadcast" | "unicast": {outcome: count}}."""
+    def message_outcomes_from(self, sender: int) -> dict[str, dict[str, dict[str, int]]]:
+        """The same for each interface of a node: {"wlan[0]": {"broadcast" | "unicast": {outcome: count}}}."""
     def message_delays(self) -> dict[str, dict[str, Any]]:
         """How long those that protocols got took: {"broadcast" | "unicast": fields of `Delays`}.
 

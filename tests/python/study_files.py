@@ -26,7 +26,7 @@ def write_result(directory: Path, run: int = 0, heard: Iterable[object] = (1, 3)
         "sim_time_s": 10.0,
         "interrupted": False,
         "iterations": {},
-        "fates": {},
+        "outcomes": {},
         "nodes": nodes,
         "settings_hash": "a",
         **changes,

@@ -29,7 +29,7 @@ class Tested(Talker):
 
 def outcome(result):
     """What two equal runs have in common."""
-    return (result.fates, result.nodes, result.events, result.fingerprint, result.interrupted)
+    return (result.outcomes, result.nodes, result.events, result.fingerprint, result.interrupted)
 
 
 @MODES

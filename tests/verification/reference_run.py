@@ -59,5 +59,5 @@ def tracked(result: RunResult, variable: str, group: str = "") -> list[int]:
 
 def received_in_error(result: RunResult) -> int:
     """Return the broadcast frames that a radio locked on to and then lost."""
-    fates = result.fates["frames"]["broadcast"]
-    return fates["noise"] + fates["interference"]
+    outcomes = result.outcomes["frames"]["broadcast"]
+    return outcomes["noise"] + outcomes["interference"]

@@ -31,11 +31,11 @@ Counts = dict[str, int]
 def counts(config: str, seed: int, *overrides: str) -> Counts:
     """Return received messages, frames of the stations, RTS among them, and dropped messages."""
     result = run_reference("hidden_inet", config, seed=seed, overrides=overrides)
-    frames = result.fates["frames"]
+    frames = result.outcomes["frames"]
     return {
         "received": sum(tracked(result, "received")),
         "frames": sum(frames["unicast"].values()) + sum(frames["rts"].values()),
-        "given_up": result.fates["messages"]["unicast"]["retry_limit"],
+        "given_up": result.outcomes["messages"]["unicast"]["retry_limit"],
     }
 
 

@@ -66,7 +66,7 @@ def test_goodput_of_one_sender(acks: bool, report: Callable[[Finding], None]) ->
 @pytest.mark.parametrize("senders", [2, 5, 10, 20])
 def test_devices_that_begin_at_once(senders: int, report: Callable[[Finding], None]) -> None:
     result = run_reference("narrowband", "Contention", overrides=[f"*.senders.count = {senders}"])
-    messages = result.fates["messages"]["broadcast"]
+    messages = result.outcomes["messages"]["broadcast"]
     assert sum(messages.values()) == senders * ROUNDS
     received = tracked(result, "received", "sink")[0] / ROUNDS
     sent = messages["sent"] / ROUNDS

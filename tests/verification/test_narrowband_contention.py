@@ -53,14 +53,14 @@ def ours(config: str, acks: bool, stations: int) -> tuple[Measured, ...]:
 
     def measure(seed: int) -> Measured:
         result = run_reference("narrowband_contention", config, seed=seed, overrides=overrides)
-        fates = result.fates["messages"]["unicast"]
-        no_access, no_ack = fates["channel_access_failure"], fates["retry_limit"]
-        done = fates["sent"] + fates["acknowledged"] + no_access + no_ack
+        outcomes = result.outcomes["messages"]["unicast"]
+        no_access, no_ack = outcomes["channel_access_failure"], outcomes["retry_limit"]
+        done = outcomes["sent"] + outcomes["acknowledged"] + no_access + no_ack
         return {
             THROUGHPUT: tracked(result, "received", "sink")[0] * MESSAGE_KBIT / MEASURED_S,
             NO_ACCESS: no_access / done,
             NO_ACK: no_ack / done,
-            FRAMES: sum(result.fates["frames"]["unicast"].values()) / done,
+            FRAMES: sum(result.outcomes["frames"]["unicast"].values()) / done,
         }
 
     return tuple(map(measure, SEEDS))

@@ -96,7 +96,7 @@ def ours(overlap: str, acks: bool, stations: int) -> tuple[Counts, ...]:
     def count(seed: int) -> Counts:
         overrides = ["*.sink.protocol.count_from = 0s", *circle(stations, acks)]
         result = run_reference("narrowband_contention", CONFIGS[overlap], seed=seed, overrides=overrides)
-        frames, messages = result.fates["frames"]["unicast"], result.fates["messages"]["unicast"]
+        frames, messages = result.outcomes["frames"]["unicast"], result.outcomes["messages"]["unicast"]
         (arrived,) = tracked(result, "received", "sink")
         return {
             RECEIVED: arrived,
@@ -168,9 +168,9 @@ def in_a_ring(stations: int) -> tuple[Counts, ...]:
             seed=seed,
             overrides=[*to_the_next, *circle(stations, acks=True)],
         )
-        messages = result.fates["messages"]["unicast"]
+        messages = result.outcomes["messages"]["unicast"]
         return {
-            FRAMES_SENT: sum(result.fates["frames"]["unicast"].values()),
+            FRAMES_SENT: sum(result.outcomes["frames"]["unicast"].values()),
             ACKNOWLEDGED: messages["acknowledged"],
             NO_ACK: messages["retry_limit"],
         }

@@ -51,7 +51,7 @@ def test_the_oracle_predicts_the_engine(
     differences = [line for one in found for line in one.differences]
     arrivals, receptions, by_chance, radios, left_out = (
         sum(getattr(one, field) for one in found)
-        for field in ("fates", "receptions", "uncertain", "radios", "left_out")
+        for field in ("outcomes", "receptions", "uncertain", "radios", "left_out")
     )
     share = left_out / (radios + left_out)
     assert differences == []

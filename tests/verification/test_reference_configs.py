@@ -64,7 +64,7 @@ def test_it_runs(name: str, config: str, mode: str) -> None:
         return
     result = run(scenario)
     assert not result.interrupted
-    assert sum(sum(fates.values()) for fates in result.fates["messages"].values()) > 0
+    assert sum(sum(outcomes.values()) for outcomes in result.outcomes["messages"].values()) > 0
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ COLUMNS = ("messages", "received", "frames", "rts", "given_up", "queue_overflow"
 def counts(config: str, seed: int, *overrides: str) -> dict[str, int]:
     """Return the quantities of INET's table for the configuration."""
     result = run_reference("unicast_failures", config, seed=seed, overrides=overrides)
-    messages, frames = result.fates["messages"]["unicast"], result.fates["frames"]
+    messages, frames = result.outcomes["messages"]["unicast"], result.outcomes["frames"]
     sent = {kind: sum(frames[kind].values()) for kind in ("unicast", "rts", "ack", "cts")}
     (received,) = tracked(result, "received")
     return {

@@ -39,7 +39,7 @@ void CsmaCa802154::send(NodeId destination, Payload payload, CauseId cause) {
         frame.duration_field = sifs_ + oqpsk_250_kbps.duration(narrowband_ack_bytes);
     }
     if (!queue_.add(frame)) {
-        report_failure(frame, MessageFate::queue_overflow);
+        report_failure(frame, MessageOutcome::queue_overflow);
         return;
     }
     if (queue_.has_one_in_front()) {
@@ -114,7 +114,7 @@ void CsmaCa802154::channel_is_busy() {
         return;
     }
     begin_next();
-    fail(MessageFate::channel_access_failure);
+    fail(MessageOutcome::channel_access_failure);
 }
 
 void CsmaCa802154::begin_next() {
@@ -123,9 +123,9 @@ void CsmaCa802154::begin_next() {
     }
 }
 
-void CsmaCa802154::fail(MessageFate fate) {
-    report_failure(*queue_.in_progress(), fate);
-    finish(fate);
+void CsmaCa802154::fail(MessageOutcome outcome) {
+    report_failure(*queue_.in_progress(), outcome);
+    finish(outcome);
 }
 
 void CsmaCa802154::transmit(std::shared_ptr<const Frame> frame) {
@@ -142,7 +142,7 @@ void CsmaCa802154::transmission_ended() {
     NETSIM_ASSERT(state_ == State::sending);
     if (queue_.in_progress()->receiver == broadcast_id || !config_.use_acks) {
         earliest_wait_ = simulator_.now() + lifs_;
-        finish(MessageFate::sent);
+        finish(MessageOutcome::sent);
         return;
     }
     state_ = State::awaiting_ack;
@@ -151,7 +151,7 @@ void CsmaCa802154::transmission_ended() {
 
 void CsmaCa802154::ack_timed_out() {
     if (retries_ >= config_.max_frame_retries) {
-        fail(MessageFate::retry_limit);
+        fail(MessageOutcome::retry_limit);
         return;
     }
     ++retries_;
@@ -159,8 +159,8 @@ void CsmaCa802154::ack_timed_out() {
     go_on();
 }
 
-void CsmaCa802154::finish(MessageFate fate) {
-    queue_.finish(fate);
+void CsmaCa802154::finish(MessageOutcome outcome) {
+    queue_.finish(outcome);
     retries_ = 0;
     go_on();
 }
@@ -178,7 +178,7 @@ void CsmaCa802154::frame_received(const Transmission& transmission) {
                frame.sequence == queue_.in_progress()->sequence) {
         simulator_.cancel(timer_);
         earliest_wait_ = simulator_.now() + lifs_;
-        finish(MessageFate::acknowledged);
+        finish(MessageOutcome::acknowledged);
     }
 }
 

@@ -58,7 +58,7 @@ public:
         radio_.prefetch(step);
     }
     std::size_t longest_message_bytes() const override { return narrowband_mtu_bytes - datagram_bytes(0); }
-    const MessageFates& message_fates() const override { return queue_.message_fates(); }
+    const MessageOutcomes& message_outcomes() const override { return queue_.message_outcomes(); }
     std::size_t queued_messages() const override { return queue_.size(); }
 
 private:
@@ -87,8 +87,8 @@ private:
     void transmit(std::shared_ptr<const Frame> frame);
     void ack_timed_out();
     void begin_next();
-    void fail(MessageFate fate);
-    void finish(MessageFate fate);
+    void fail(MessageOutcome outcome);
+    void finish(MessageOutcome outcome);
     void unicast_received(const Frame& frame);
     void acknowledge(const Frame& frame);
 

@@ -39,7 +39,7 @@ void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
         frame.duration_field = data_duration_field(parameters_.timing, parameters_.responses, *data_mode_);
     }
     if (!queue_.add(frame)) {
-        report_failure(frame, MessageFate::queue_overflow);
+        report_failure(frame, MessageOutcome::queue_overflow);
         return;
     }
     if (queue_.has_one_in_front()) {
@@ -127,7 +127,7 @@ void Dcf::transmission_ended() {
         NETSIM_ASSERT(exchange_ == Exchange::sending);
         if (in_progress().receiver == broadcast_id) {
             retry_.broadcast_sent();
-            finish(MessageFate::sent);
+            finish(MessageOutcome::sent);
             return;
         }
         own_frame_ended(in_progress());
@@ -187,7 +187,7 @@ void Dcf::answered() {
     } else {
         rate_control_->succeeded(attempt(), *data_mode_, simulator().now());
         retry_.acknowledged(is_long(in_progress()));
-        finish(MessageFate::acknowledged);
+        finish(MessageOutcome::acknowledged);
     }
 }
 
@@ -239,8 +239,8 @@ void Dcf::attempt_failed() {
     const bool may_go_on = was_sent && is_long(in_progress()) ? retry_.long_failed() : retry_.short_failed();
     if (!may_go_on) {
         retry_.given_up();
-        report_failure(in_progress(), MessageFate::retry_limit);
-        finish(MessageFate::retry_limit);
+        report_failure(in_progress(), MessageOutcome::retry_limit);
+        finish(MessageOutcome::retry_limit);
         return;
     }
     if (was_sent) {
@@ -250,8 +250,8 @@ void Dcf::attempt_failed() {
     contend_for_next();
 }
 
-void Dcf::finish(MessageFate fate) {
-    queue_.finish(fate);
+void Dcf::finish(MessageOutcome outcome) {
+    queue_.finish(outcome);
     attempts_ = 0;
     exchange_ = Exchange::none;
     if (!queue_.empty() || parameters_.config.skip_backoff_if_idle) {

@@ -62,7 +62,7 @@ public:
     std::size_t longest_message_bytes() const override {
         return parameters_.config.mtu_bytes - datagram_bytes(0);
     }
-    const MessageFates& message_fates() const override { return queue_.message_fates(); }
+    const MessageOutcomes& message_outcomes() const override { return queue_.message_outcomes(); }
     std::size_t queued_messages() const override { return queue_.size(); }
     std::map<std::int64_t, std::uint64_t> frames_by_bitrate() const override;
 
@@ -99,7 +99,7 @@ private:
     void answer_timed_out();
     void answered();
     void attempt_failed();
-    void finish(MessageFate fate);
+    void finish(MessageOutcome outcome);
     void contend_for_next();
     void addressed_here(const Frame& frame, const Mode& mode);
     void respond_after_sifs(Frame response, const Mode& mode);

@@ -13,7 +13,7 @@
 #include "netsim/kernel/sim_time.hpp"
 #include "netsim/node_id.hpp"
 #include "netsim/trace/frame_label.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/message_outcomes.hpp"
 
 namespace netsim {
 

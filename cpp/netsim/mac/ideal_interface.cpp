@@ -23,7 +23,7 @@ Links& links_of(IdealChannel& channel) {
 
 IdealInterface::IdealInterface(Simulator& simulator, IdealChannel& channel, InterfaceId interface,
                                double range_m, std::optional<IdealRadio> radio, IdealTiming timing,
-                               const Trajectory& trajectory, FrameFates& frame_fates,
+                               const Trajectory& trajectory, FrameOutcomes& frame_outcomes,
                                Fingerprint& fingerprint, std::uint64_t seed)
     : simulator_(simulator),
       channel_(channel),
@@ -31,7 +31,7 @@ IdealInterface::IdealInterface(Simulator& simulator, IdealChannel& channel, Inte
       radio_(std::move(radio)),
       timing_(timing),
       trajectory_(trajectory),
-      frame_fates_(frame_fates),
+      frame_outcomes_(frame_outcomes),
       fingerprint_(fingerprint),
       seed_(seed),
       id_(interface.node),
@@ -70,13 +70,13 @@ void IdealInterface::send(NodeId destination, Payload payload, CauseId cause) {
               .cause = cause,
               .accepted = simulator_.now()});
     const MessageKind kind = message_kind(*frame);
-    message_fates_.accept(kind);
+    message_outcomes_.accept(kind);
     if (!timing_.has_queue()) {
         ++on_air_;
         transmit(exchanges_.add({.frame = frame}));
     } else if (is_full() && !timing_.blocks()) {
-        message_fates_.book(kind, MessageFate::queue_overflow);
-        report_failure(*frame, MessageFate::queue_overflow);
+        message_outcomes_.book(kind, MessageOutcome::queue_overflow);
+        report_failure(*frame, MessageOutcome::queue_overflow);
     } else {
         queue_.push(std::move(frame));
         if (has_one_in_front()) {
@@ -198,7 +198,7 @@ void IdealInterface::transmit(std::size_t exchange) {
         channel_.longest_airtime = std::max(channel_.longest_airtime, airtime);
         add_stretch(shared_channel().own_, {sent->start, sent->start + airtime, 0, id_, label.number});
     }
-    FrameObserver* const observer = frame_fates_.observer();
+    FrameObserver* const observer = frame_outcomes_.observer();
     std::vector<FrameObserver::Loss> missed;
     CopyCount addressed;
     SimTime last_end = simulator_.now();
@@ -237,7 +237,7 @@ void IdealInterface::transmit(std::size_t exchange) {
     if (observer != nullptr) {
         observer->frame_begins(*sent, addressed.made - addressed.too_weak, addressed.too_weak, missed);
     }
-    frame_fates_.book_transmission(label, addressed, CopyCount{});
+    frame_outcomes_.book_transmission(label, addressed, CopyCount{});
     if (timing_.is_instant() && !radio_) {
         exchanges_[exchange].is_received = exchanges_[exchange].is_heard;
         end_exchange(exchange);
@@ -261,9 +261,9 @@ void IdealInterface::add_missed(const Transmission& sent, const IdealInterface& 
 void IdealInterface::end_exchange(std::size_t number) {
     const Exchange& exchange = exchanges_[number];
     const MessageKind kind = message_kind(*exchange.frame);
-    MessageFate fate = MessageFate::sent;
+    MessageOutcome outcome = MessageOutcome::sent;
     if (exchange.frame->kind != FrameKind::broadcast) {
-        fate = exchange.is_received ? MessageFate::acknowledged : MessageFate::out_of_range;
+        outcome = exchange.is_received ? MessageOutcome::acknowledged : MessageOutcome::out_of_range;
         if (exchange.is_heard && !exchange.is_received) {
             if (exchange.attempts < timing_.most_attempts()) {
                 SimTime delay;
@@ -276,16 +276,16 @@ void IdealInterface::end_exchange(std::size_t number) {
                 simulator_.schedule_after(delay, [this, number] { transmit(number); });
                 return;
             }
-            fate = MessageFate::retry_limit;
+            outcome = MessageOutcome::retry_limit;
         }
     }
-    const bool has_failed = fate == MessageFate::out_of_range || fate == MessageFate::retry_limit;
+    const bool has_failed = outcome == MessageOutcome::out_of_range || outcome == MessageOutcome::retry_limit;
     const std::shared_ptr<const Frame> failed = has_failed ? exchange.frame : nullptr;
     exchanges_.take(number);
     --on_air_;
-    message_fates_.book(kind, fate);
+    message_outcomes_.book(kind, outcome);
     if (failed) {
-        report_failure(*failed, fate);
+        report_failure(*failed, outcome);
     }
 }
 
@@ -297,7 +297,7 @@ void IdealInterface::add_stretch(std::vector<Stretch>& stretches, const Stretch&
 }
 
 // Called at the receiver.
-FrameFate IdealInterface::fate_of(const Flight& flight) {
+FrameOutcome IdealInterface::outcome_of(const Flight& flight) {
     const auto overlaps = [&flight](const Stretch& other) {
         return other.number != flight.sent->label.number && other.start < flight.arrival.end &&
                other.end > flight.arrival.start;
@@ -306,7 +306,7 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
     std::vector<FrameObserver::Interferer> interferers;
     if (timing_.collides()) {
         if (std::ranges::any_of(shared_channel().own_, overlaps)) {
-            return FrameFate::receiver_transmitting;
+            return FrameOutcome::receiver_transmitting;
         }
         std::vector<Stretch> others;
         std::ranges::copy_if(arrived_, std::back_inserter(others), overlaps);
@@ -324,9 +324,9 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
             }
         }
     }
-    FrameFate fate = FrameFate::delivered;
+    FrameOutcome outcome = FrameOutcome::delivered;
     if (!radio_) {
-        fate = interferers.empty() ? FrameFate::delivered : FrameFate::interference;
+        outcome = interferers.empty() ? FrameOutcome::delivered : FrameOutcome::interference;
     } else {
         const ReceptionModel& reception = radio_->model->reception;
         const PreambleDetection& preamble = radio_->model->preamble_detection;
@@ -334,32 +334,32 @@ FrameFate IdealInterface::fate_of(const Flight& flight) {
         const double disturbance_w = interference_w + systems_w;
         if (preamble.is_on() &&
             !preamble.detects(flight.arrival.power_w, reception.snir(flight.arrival, disturbance_w))) {
-            return FrameFate::preamble_undetected;
+            return FrameOutcome::preamble_undetected;
         }
         Arrival arrival = flight.arrival;
         arrival.transmission = flight.sent.get();
         if (const double draw = this->draw(); !reception.survives(draw, arrival, disturbance_w)) {
             const bool is_collision = interference_w > 0 && reception.survives(draw, arrival, systems_w);
-            fate = is_collision ? FrameFate::interference : FrameFate::noise;
+            outcome = is_collision ? FrameOutcome::interference : FrameOutcome::noise;
         }
     }
-    if (fate != FrameFate::delivered) {
-        if (fate == FrameFate::noise) {
+    if (outcome != FrameOutcome::delivered) {
+        if (outcome == FrameOutcome::noise) {
             interferers.clear();
         }
-        book_loss(flight, fate, interference_w, interferers);
+        book_loss(flight, outcome, interference_w, interferers);
     }
-    return fate;
+    return outcome;
 }
 
-void IdealInterface::book_loss(const Flight& flight, FrameFate fate, double interference_w,
+void IdealInterface::book_loss(const Flight& flight, FrameOutcome outcome, double interference_w,
                                std::span<const FrameObserver::Interferer> interferers) {
     const Transmission& sent = *flight.sent;
-    if (FrameObserver* const observer = frame_fates_.observer();
+    if (FrameObserver* const observer = frame_outcomes_.observer();
         observer != nullptr && observer->explains(sent.sender.node, id_)) {
         FrameObserver::Loss loss{.receiver = id_,
                                  .power_w = flight.arrival.power_w,
-                                 .interference_w = fate == FrameFate::noise ? 0 : interference_w,
+                                 .interference_w = outcome == FrameOutcome::noise ? 0 : interference_w,
                                  .interferers = {interferers.begin(), interferers.end()}};
         if (radio_) {
             loss.budget = links_of(channel_).power_budget(sent, radio_id_, flight.arrival.place);
@@ -368,23 +368,23 @@ void IdealInterface::book_loss(const Flight& flight, FrameFate fate, double inte
         }
         observer->frame_lost(sent.id(), loss);
     }
-    if (fate == FrameFate::interference) {
+    if (outcome == FrameOutcome::interference) {
         std::vector<NodeId> nodes;
         for (const FrameObserver::Interferer& interferer : interferers) {
             nodes.push_back(interferer.node);
         }
-        frame_fates_.book_interference(id_, sent.label, nodes);
+        frame_outcomes_.book_interference(id_, sent.label, nodes);
     }
 }
 
 void IdealInterface::deliver(std::size_t flight) {
     const Flight landed = flights_.take(flight);
     IdealInterface& receiver = *landed.receiver;
-    const FrameFate fate = receiver.fate_of(landed);
-    if (fate != FrameFate::interference) {
-        frame_fates_.book(receiver.id_, landed.sent->label, fate);
+    const FrameOutcome outcome = receiver.outcome_of(landed);
+    if (outcome != FrameOutcome::interference) {
+        frame_outcomes_.book(receiver.id_, landed.sent->label, outcome);
     }
-    if (fate != FrameFate::delivered) {
+    if (outcome != FrameOutcome::delivered) {
         return;
     }
     exchanges_[landed.exchange].is_received = true;

@@ -43,8 +43,8 @@
 #include "netsim/medium/links.hpp"
 #include "netsim/mobility/trajectory.hpp"
 #include "netsim/phy/radio_model.hpp"
-#include "netsim/trace/frame_fates.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/frame_outcomes.hpp"
+#include "netsim/trace/message_outcomes.hpp"
 
 namespace netsim {
 
@@ -72,7 +72,7 @@ public:
     // `radio`: none on the unit disk, where `range_m` counts instead. `seed`: of the run.
     IdealInterface(Simulator& simulator, IdealChannel& channel, InterfaceId interface, double range_m,
                    std::optional<IdealRadio> radio, IdealTiming timing, const Trajectory& trajectory,
-                   FrameFates& frame_fates, Fingerprint& fingerprint, std::uint64_t seed);
+                   FrameOutcomes& frame_outcomes, Fingerprint& fingerprint, std::uint64_t seed);
     IdealInterface(const IdealInterface&) = delete;
     IdealInterface& operator=(const IdealInterface&) = delete;
 
@@ -80,7 +80,7 @@ public:
     void send(NodeId destination, Payload payload, CauseId cause) override;
     void prefetch(int /*step*/) const override { netsim::prefetch(*this); }
     std::size_t longest_message_bytes() const override { return std::numeric_limits<std::size_t>::max(); }
-    const MessageFates& message_fates() const override { return message_fates_; }
+    const MessageOutcomes& message_outcomes() const override { return message_outcomes_; }
     std::size_t queued_messages() const override { return queue_.size() + on_air_; }
 
 private:
@@ -129,13 +129,13 @@ private:
     void end_exchange(std::size_t number);
     void deliver(std::size_t flight);
     void add_stretch(std::vector<Stretch>& stretches, const Stretch& added) const;
-    FrameFate fate_of(const Flight& flight);
+    FrameOutcome outcome_of(const Flight& flight);
     // The most that other systems add to the noise during a frame, in W. Unlike the MAC's radio, this interface
     // takes the most of noise and interference together, even if they have it at different times.
     double other_systems_w(const Arrival& arrival) const {
         return radio_ ? radio_->model->medium.other_systems().max_w(stream_, arrival.start, arrival.end) : 0;
     }
-    void book_loss(const Flight& flight, FrameFate fate, double interference_w,
+    void book_loss(const Flight& flight, FrameOutcome outcome, double interference_w,
                    std::span<const FrameObserver::Interferer> interferers);
     double draw() { return RandomStream(seed_, stream_, Purpose::reception, drawn_++).uniform(); }
     // The interface whose own frames this one cannot hear: on the unit disk, those of a node share a channel.
@@ -150,7 +150,7 @@ private:
     RadioId radio_id_ = 0;
     IdealTiming timing_;
     const Trajectory& trajectory_;
-    FrameFates& frame_fates_;
+    FrameOutcomes& frame_outcomes_;
     Fingerprint& fingerprint_;
     std::uint64_t seed_;
     NodeId id_;
@@ -158,7 +158,7 @@ private:
     std::uint64_t drawn_ = 0;
     RandomStream delays_;  // before retries
     InstantCount sent_;
-    MessageFates message_fates_;
+    MessageOutcomes message_outcomes_;
     FrameFifo queue_;         // frames that wait for the channel
     bool waits_ = false;      // whether an event will check the channel
     std::size_t on_air_ = 0;  // number of exchanges that have not ended

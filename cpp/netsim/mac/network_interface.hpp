@@ -10,7 +10,7 @@
 
 #include "netsim/interface_id.hpp"
 #include "netsim/mac/frame.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/message_outcomes.hpp"
 
 namespace netsim {
 
@@ -19,7 +19,7 @@ public:
     // A message for this node, in the frame that carried it.
     virtual void message_received(const Frame& frame) = 0;
     // A message from this node has failed, as the outcome says: the queue was full, or no ACK came.
-    virtual void message_failed(const Frame&, MessageFate) {}
+    virtual void message_failed(const Frame&, MessageOutcome) {}
     // A message waits in front of the full queue, or no message does any more.
     virtual void queue_blocks(bool) {}
 
@@ -41,7 +41,7 @@ public:
     // first line of the interface is already in the cache. Step 0 prefetches what that line points
     // to, and step 1 what the result points to.
     virtual void prefetch(int step) const = 0;
-    virtual const MessageFates& message_fates() const = 0;
+    virtual const MessageOutcomes& message_outcomes() const = 0;
     // Number of messages that wait or are in progress, to check that the outcomes add up.
     virtual std::size_t queued_messages() const = 0;
     // {bitrate in bps: unicast frames sent with it, including retries}; empty without adaptive rate
@@ -54,9 +54,9 @@ protected:
             listener_->message_received(frame);
         }
     }
-    void report_failure(const Frame& frame, MessageFate fate) const {
+    void report_failure(const Frame& frame, MessageOutcome outcome) const {
         if (listener_ != nullptr) {
-            listener_->message_failed(frame, fate);
+            listener_->message_failed(frame, outcome);
         }
     }
     void report_blocking(bool blocks) const {

@@ -1,7 +1,7 @@
 // The transmit queue of one interface: waiting frames, the frame in progress, and the outcomes of
 // their messages.
 //
-//   add() -> WAITING --begin_next()--> IN PROGRESS --finish(fate)--> gone
+//   add() -> WAITING --begin_next()--> IN PROGRESS --finish(outcome)--> gone
 //     |
 //     +--the queue is full--> gone: queue_overflow
 //
@@ -17,7 +17,7 @@
 #include "netsim/kernel/prefetch.hpp"
 #include "netsim/mac/frame.hpp"
 #include "netsim/mac/frame_fifo.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/message_outcomes.hpp"
 
 namespace netsim {
 
@@ -47,9 +47,9 @@ public:
     // because the queue is full.
     bool add(Frame& frame) {
         const MessageKind kind = message_kind(frame);
-        fates_.accept(kind);
+        outcomes_.accept(kind);
         if (!blocks_ && waiting() >= static_cast<std::size_t>(capacity_)) {
-            fates_.book(kind, MessageFate::queue_overflow);
+            outcomes_.book(kind, MessageOutcome::queue_overflow);
             return false;
         }
         queue_.push(std::make_shared<const Frame>(std::move(frame)));
@@ -59,7 +59,7 @@ public:
     // Waiting frames and the one in progress.
     std::size_t size() const { return queue_.size(); }
     bool empty() const { return queue_.empty(); }
-    const MessageFates& message_fates() const { return fates_; }
+    const MessageOutcomes& message_outcomes() const { return outcomes_; }
 
     // Whether one message waits in front of the full queue, so that it has begun to block, or will end.
     bool has_one_in_front() const { return blocks_ && waiting() == static_cast<std::size_t>(capacity_) + 1; }
@@ -85,8 +85,8 @@ public:
             change([duration](Frame& frame) { frame.duration_field = duration; });
         }
     }
-    void finish(MessageFate fate) {
-        fates_.book(message_kind(*in_progress()), fate);
+    void finish(MessageOutcome outcome) {
+        outcomes_.book(message_kind(*in_progress()), outcome);
         queue_.pop();
         is_in_progress_ = false;
     }
@@ -106,7 +106,7 @@ private:
     bool is_in_progress_ = false;  // whether the first frame is
     NodeId node_;
     std::uint32_t next_sequence_ = 0;
-    MessageFates fates_;
+    MessageOutcomes outcomes_;
 };
 
 }  // namespace netsim

@@ -12,10 +12,10 @@
 
 namespace netsim {
 
-Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
-               Culling culling, std::uint64_t seed)
+Medium::Medium(Simulator& simulator, const MediumConfig& config, FrameOutcomes& outcomes,
+               Fingerprint& fingerprint, Culling culling, std::uint64_t seed)
     : simulator_(simulator),
-      fates_(fates),
+      outcomes_(outcomes),
       fingerprint_(fingerprint),
       links_(config, seed),
       active_transmissions_(links_),
@@ -75,11 +75,11 @@ void Medium::notify_all(ActiveTransmission& entry) {
         notify(radio, entry, arrival);
     }
     notify_observer(sent, {addressed.made + overheard.made, addressed.too_weak + overheard.too_weak});
-    fates_.book_transmission(sent.label, addressed, overheard);
+    outcomes_.book_transmission(sent.label, addressed, overheard);
 }
 
 void Medium::notify_observer(const Transmission& sent, CopyCount copies) {
-    if (FrameObserver* const observer = fates_.observer(); observer != nullptr) {
+    if (FrameObserver* const observer = outcomes_.observer(); observer != nullptr) {
         std::vector<FrameObserver::Loss> missed;
         if (copies.too_weak > 0) {
             missed = missed_receptions(sent, *observer);
@@ -226,7 +226,7 @@ void Medium::book_copies(const ActiveTransmission& entry, CopyCount copies) {
     const FrameLabel label = entry.transmission.label;
     notify_observer(entry.transmission, copies);
     if (label.destination == broadcast_id) {
-        fates_.book_transmission(label, copies, {});
+        outcomes_.book_transmission(label, copies, {});
         return;
     }
     CopyCount addressed;
@@ -237,14 +237,14 @@ void Medium::book_copies(const ActiveTransmission& entry, CopyCount copies) {
             });
         addressed = {1, is_noticed ? 0U : 1U};
     }
-    fates_.book_transmission(label, addressed,
-                             {copies.made - addressed.made, copies.too_weak - addressed.too_weak});
+    outcomes_.book_transmission(label, addressed,
+                                {copies.made - addressed.made, copies.too_weak - addressed.too_weak});
 }
 
 // The receiver will be notified soon. In a large network, most of its state is not in a cache.
 void Medium::prefetch(RadioId radio, FrameKind kind) const {
     links_.prefetch_targets(radio);
-    fates_.prefetch(links_.interface(radio).node, kind, FrameFate::delivered);
+    outcomes_.prefetch(links_.interface(radio).node, kind, FrameOutcome::delivered);
 }
 
 // The sequence numbers of all arrival events are reserved when the transmission begins. So the

@@ -29,7 +29,7 @@
 #include "netsim/medium/other_systems.hpp"
 #include "netsim/medium/receiver.hpp"
 #include "netsim/propagation/transmission.hpp"
-#include "netsim/trace/frame_fates.hpp"
+#include "netsim/trace/frame_outcomes.hpp"
 
 namespace netsim {
 
@@ -40,8 +40,8 @@ enum class Culling { enabled, disabled };
 class Medium final : private CumulativeEnergyListener {
 public:
     // `seed`: of the run, for fading.
-    Medium(Simulator& simulator, const MediumConfig& config, FrameFates& fates, Fingerprint& fingerprint,
-           Culling culling = Culling::enabled, std::uint64_t seed = 0);
+    Medium(Simulator& simulator, const MediumConfig& config, FrameOutcomes& outcomes,
+           Fingerprint& fingerprint, Culling culling = Culling::enabled, std::uint64_t seed = 0);
     Medium(const Medium&) = delete;
     Medium& operator=(const Medium&) = delete;
 
@@ -87,7 +87,7 @@ public:
 
     Simulator& simulator() const { return simulator_; }
     // The radios add to these, too.
-    FrameFates& fates() { return fates_; }
+    FrameOutcomes& outcomes() { return outcomes_; }
     Fingerprint& fingerprint() { return fingerprint_; }
     const BackgroundNoise& background_noise() const { return background_noise_; }
     const OtherSystems& other_systems() const { return other_systems_; }
@@ -129,7 +129,7 @@ private:
     void arrival_needed(RadioId radio, ActiveTransmission& active, const Arrival& arrival) override;
 
     Simulator& simulator_;
-    FrameFates& fates_;
+    FrameOutcomes& outcomes_;
     Fingerprint& fingerprint_;
     Links links_;
     ActiveTransmissions active_transmissions_;    // on links_

@@ -41,7 +41,7 @@ void Computer::cancel_timer(const std::string& timer) {
 }
 
 // It reaches the protocol in an event of its own, since the interface is in the middle of something.
-void Computer::message_failed(const Frame& frame, MessageFate fate) {
+void Computer::message_failed(const Frame& frame, MessageOutcome outcome) {
     if (!wants_failed_messages_) {
         return;
     }
@@ -52,7 +52,7 @@ void Computer::message_failed(const Frame& frame, MessageFate fate) {
                               std::to_string(now.seconds()) +
                               " s: time stands still; expected a later time for the next attempt");
     }
-    events_.emplace_back(Failure{frame.payload, frame.receiver, fate});
+    events_.emplace_back(Failure{frame.payload, frame.receiver, outcome});
     begin_next();
 }
 

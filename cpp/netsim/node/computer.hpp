@@ -46,13 +46,13 @@ private:
     struct Failure {
         Payload message;
         NodeId destination;
-        MessageFate reason;
+        MessageOutcome reason;
     };
     using Canceled = std::monostate;
     using Event = std::variant<Canceled, std::string, Frame, Position, Failure>;  // a timer is its name
 
     void message_received(const Frame& frame) override { add(frame); }
-    void message_failed(const Frame& frame, MessageFate fate) override;
+    void message_failed(const Frame& frame, MessageOutcome outcome) override;
     void queue_blocks(bool blocks) override;
     void add(const Event& event);
     void begin_next();

@@ -45,7 +45,7 @@ Network::Network(const MediumConfig& medium, std::uint64_t seed, Culling culling
       timing_(validated(medium).timing),
       is_ideal_(timing_ != mac_timing),
       has_powers_(medium.type_name != unit_disk_medium),
-      medium_(simulator_, medium, frame_fates_, fingerprint_, culling, seed) {
+      medium_(simulator_, medium, frame_outcomes_, fingerprint_, culling, seed) {
     if (is_ideal_ && has_powers_) {
         ideal_channel_.links.emplace(medium, seed);
     }
@@ -58,7 +58,7 @@ Node& Network::add_node(const NodeConfig& config) {
     config.validate();
     check_with_medium(config);  // before anything is built, so that a rejected node changes nothing
     Node& node = nodes_.emplace_back(context_, config, context_.node_count++, seed_);
-    frame_fates_.add_node();
+    frame_outcomes_.add_node();
     for (std::size_t index = 0; index < config.wlan.size(); ++index) {
         const InterfaceId id{node.id(), static_cast<std::int32_t>(index)};
         node.add_interface(make_interface(config.wlan[index], id, node));
@@ -83,7 +83,7 @@ std::unique_ptr<NetworkInterface> Network::make_interface(const InterfaceConfig&
         }
         return std::make_unique<IdealInterface>(
             simulator_, ideal_channel_, id, config.radio.communication_range_m, std::move(radio),
-            IdealTiming(timing_, config), node.trajectory(), frame_fates_, fingerprint_, seed_);
+            IdealTiming(timing_, config), node.trajectory(), frame_outcomes_, fingerprint_, seed_);
     }
     interface_types_.try_emplace(config.radio.carrier_hz, config.type_name);
     Radio& radio = radios_.emplace_back(id, radio_model(config.radio), config.radio.tx_power_w,
@@ -252,7 +252,7 @@ ReplayRecorder& Network::record(const std::vector<NodeId>& recorded) {
         recorder_->add_node(node.trajectory(), is_recorded[place_of(node.id())]);
     }
     context_.recorder = recorder_.get();
-    frame_fates_.set_observer(recorder_.get());
+    frame_outcomes_.set_observer(recorder_.get());
     return *recorder_;
 }
 
@@ -321,11 +321,11 @@ void Network::finish() {
     close_captures();
 }
 
-MessageFateSums Network::message_fates() const {
-    MessageFateSums sum;
+MessageOutcomeSums Network::message_outcomes() const {
+    MessageOutcomeSums sum;
     for (const Node& node : nodes_) {
         for (const auto& interface : node.interfaces()) {
-            sum.add(interface->message_fates());
+            sum.add(interface->message_outcomes());
         }
     }
     return sum;

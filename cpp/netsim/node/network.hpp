@@ -31,8 +31,8 @@
 #include "netsim/node/telemetry_clock.hpp"
 #include "netsim/phy/radio.hpp"
 #include "netsim/phy/radio_model.hpp"
-#include "netsim/trace/frame_fates.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/frame_outcomes.hpp"
+#include "netsim/trace/message_outcomes.hpp"
 
 namespace netsim {
 
@@ -96,9 +96,9 @@ public:
     std::uint64_t event_count() const { return simulator_.event_count(); }
     std::size_t pending_count() const { return simulator_.pending_count(); }
     std::uint64_t fingerprint() const { return fingerprint_.value(); }
-    const FrameFates& frame_fates() const { return frame_fates_; }
-    // The sum over all interfaces. For one of them: node(0).interfaces()[1]->message_fates().
-    MessageFateSums message_fates() const;
+    const FrameOutcomes& frame_outcomes() const { return frame_outcomes_; }
+    // The sum over all interfaces. For one of them: node(0).interfaces()[1]->message_outcomes().
+    MessageOutcomeSums message_outcomes() const;
     const MessageDelays& message_delays() const { return context_.message_delays; }
 
 private:
@@ -121,7 +121,7 @@ private:
     std::uint64_t seed_;
     Fingerprint fingerprint_;
     NetworkContext context_{simulator_, fingerprint_};
-    FrameFates frame_fates_;
+    FrameOutcomes frame_outcomes_;
     std::string timing_;  // MediumConfig::timing
     bool is_ideal_;       // whether interfaces are IdealInterfaces
     bool has_powers_;     // whether the medium computes the power of frames

@@ -38,7 +38,7 @@ public:
     virtual bool wants_failed_messages() const { return false; }
     // A message of this node was dropped, or its retries ended without an ACK. `destination`:
     // broadcast_id for all.
-    virtual void handle_failed_message(const Payload&, NodeId, MessageFate) {}
+    virtual void handle_failed_message(const Payload&, NodeId, MessageOutcome) {}
 
     // A timer will be due soon: may prefetch what the handler reads (kernel/prefetch.hpp). The first
     // two cache lines of the protocol itself are prefetched already.

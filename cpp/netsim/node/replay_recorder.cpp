@@ -47,8 +47,8 @@ std::int16_t cdbm(double power_w) {
 }
 
 // Receptions below the sensitivity are recorded only if they are losses.
-bool is_lost(FrameFate fate) {
-    return fate != FrameFate::delivered && fate != FrameFate::in_air;
+bool is_lost(FrameOutcome outcome) {
+    return outcome != FrameOutcome::delivered && outcome != FrameOutcome::in_air;
 }
 
 // A column of a table: one member of each row.
@@ -236,16 +236,16 @@ void ReplayRecorder::frame_begins(const Transmission& transmission, std::uint64_
     std::ranges::stable_sort(strongest, std::ranges::greater{}, &Loss::power_w);
     strongest.resize(std::min(strongest.size(), max_missed));
     for (const Loss* const loss : strongest) {
-        frame.receptions.push_back(reception_of(loss->receiver, FrameFate::below_sensitivity));
+        frame.receptions.push_back(reception_of(loss->receiver, FrameOutcome::below_sensitivity));
         add_loss(frame, *loss);
     }
     write_complete_frames();
 }
 
-void ReplayRecorder::reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) {
+void ReplayRecorder::reception_ends(FrameNumber number, NodeId receiver, FrameOutcome outcome) {
     OpenFrame& frame = open(number);
     if (frame.is_recorded || nodes_[receiver].is_recorded) {
-        frame.receptions.push_back(reception_of(receiver, fate));
+        frame.receptions.push_back(reception_of(receiver, outcome));
     }
     if (--frame.left == 0 && number == first_open_) {
         write_complete_frames();
@@ -328,8 +328,8 @@ void ReplayRecorder::count(const OpenFrame& frame) {
     }
     ++density_.frames[bin];
     for (const Reception reception : frame.receptions) {
-        const auto fate = static_cast<FrameFate>(reception & 0xFF);
-        density_.lost[bin] += is_lost(fate) ? 1 : 0;
+        const auto outcome = static_cast<FrameOutcome>(reception & 0xFF);
+        density_.lost[bin] += is_lost(outcome) ? 1 : 0;
         ++nodes_[reception >> 8].outcomes[reception & 0xFF];
     }
 }
@@ -434,9 +434,10 @@ void ReplayRecorder::close_chunk() {
     density_.bin = density_bin;
     chunk.density = std::exchange(density_, {});
     for (std::size_t id = 0; id < nodes_.size(); ++id) {
-        for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
-            if (const std::uint32_t count = std::exchange(nodes_[id].outcomes[fate], 0); count > 0) {
-                chunk.outcomes.push_back({static_cast<NodeId>(id), static_cast<FrameFate>(fate), count});
+        for (std::size_t outcome = 0; outcome < frame_outcome_count; ++outcome) {
+            if (const std::uint32_t count = std::exchange(nodes_[id].outcomes[outcome], 0); count > 0) {
+                chunk.outcomes.push_back(
+                    {static_cast<NodeId>(id), static_cast<FrameOutcome>(outcome), count});
             }
         }
     }

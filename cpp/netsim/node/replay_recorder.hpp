@@ -29,8 +29,8 @@
 #include "netsim/mac/frame.hpp"
 #include "netsim/mobility/trajectory.hpp"
 #include "netsim/node/tracked_variables.hpp"
-#include "netsim/trace/frame_fates.hpp"
 #include "netsim/trace/frame_observer.hpp"
+#include "netsim/trace/frame_outcomes.hpp"
 
 namespace netsim {
 
@@ -49,9 +49,9 @@ struct ReplayChunk {
         std::vector<std::uint32_t> frames;
         std::vector<std::uint32_t> lost;
     };
-    struct Outcome {
+    struct OutcomeCount {
         NodeId node = 0;
-        FrameFate fate = FrameFate::delivered;
+        FrameOutcome outcome = FrameOutcome::delivered;
         std::uint32_t count = 0;
     };
 
@@ -60,7 +60,7 @@ struct ReplayChunk {
     std::vector<std::string> strings;
     std::vector<Table> tables;
     Density density;
-    std::vector<Outcome> outcomes;
+    std::vector<OutcomeCount> outcomes;
 };
 
 class ReplayRecorder final : public FrameObserver {
@@ -98,7 +98,7 @@ public:
     }
     void frame_begins(const Transmission& transmission, std::uint64_t noticed, std::uint64_t too_weak,
                       std::span<const Loss> missed) override;
-    void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) override;
+    void reception_ends(FrameNumber number, NodeId receiver, FrameOutcome outcome) override;
     void frame_lost(FrameNumber number, const Loss& loss) override;
 
     // Closes the chunk now. Frames with receptions in progress go to the next chunk.
@@ -185,8 +185,8 @@ private:
 
     // A reception in 32 bits, which sorts by receiver.
     using Reception = std::uint32_t;
-    static Reception reception_of(NodeId receiver, FrameFate fate) {
-        return static_cast<Reception>(receiver) << 8 | static_cast<Reception>(fate);
+    static Reception reception_of(NodeId receiver, FrameOutcome outcome) {
+        return static_cast<Reception>(receiver) << 8 | static_cast<Reception>(outcome);
     }
 
     // A frame that is still on the air, or that waits for an earlier one.
@@ -207,7 +207,7 @@ private:
         SimTime sampled_at;
         Position sampled;
         std::vector<std::vector<Reception>> heard_by;  // [interface] of the last frame in this chunk
-        std::array<std::uint32_t, frame_fate_count> outcomes{};  // in this chunk
+        std::array<std::uint32_t, frame_outcome_count> outcomes{};  // in this chunk
     };
 
     SimTime now() const { return simulator_.now(); }

@@ -54,10 +54,10 @@ void Radio::turn_to_transmit() {
 }
 
 void Radio::give_up_reception() {
-    drop_candidates(FrameFate::receiver_transmitting);
+    drop_candidates(FrameOutcome::receiver_transmitting);
     if (present_.is_locked()) {
         simulator().cancel(header_end_);
-        book(present_.unlock(), FrameFate::receiver_transmitting);
+        book(present_.unlock(), FrameOutcome::receiver_transmitting);
     }
 }
 
@@ -75,17 +75,17 @@ void Radio::arrival_started(const Arrival& arrival) {
     if (arrival.lockable) {
         if (transmitting_ || turned_) {
             ignores_energy_ = false;
-            book(*arrival.transmission, FrameFate::receiver_transmitting);
+            book(*arrival.transmission, FrameOutcome::receiver_transmitting);
         } else if (!present_.is_locked()) {
             begin_reception(arrival);
         } else if (model_.frame_capture.captures(locked_arrival_, arrival)) {
             simulator().cancel(header_end_);
-            book(present_.unlock(), FrameFate::captured);
+            book(present_.unlock(), FrameOutcome::captured);
             listener_->frame_corrupted({});
             begin_reception(arrival);
         } else {
             began_in_header_ = began_in_header_ || is_receiving_header();
-            book(*arrival.transmission, FrameFate::receiver_locked);
+            book(*arrival.transmission, FrameOutcome::receiver_locked);
         }
     }
     update_busy();
@@ -115,15 +115,15 @@ void Radio::end_detection(const Transmission* transmission) {
         return model_.reception.snir(arrival, steps.back().power_w);
     };
     if (!is_strongest || !model_.preamble_detection.detects(arrival.power_w, snir())) {
-        if (medium().fates().observer() != nullptr) {
-            tell_loss(arrival, FrameFate::preamble_undetected,
+        if (medium().outcomes().observer() != nullptr) {
+            tell_loss(arrival, FrameOutcome::preamble_undetected,
                       &interference_in(arrival, {arrival.start, simulator().now()}));
         }
-        book(*transmission, FrameFate::preamble_undetected);
+        book(*transmission, FrameOutcome::preamble_undetected);
         update_busy();
         return;
     }
-    drop_candidates(FrameFate::receiver_locked);
+    drop_candidates(FrameOutcome::receiver_locked);
     lock_on(arrival);
     update_busy();
 }
@@ -133,13 +133,13 @@ std::vector<Radio::Candidate>::iterator Radio::candidate_of(const Transmission* 
                              [](const Candidate& candidate) { return candidate.arrival.transmission; });
 }
 
-void Radio::drop_candidates(FrameFate fate) {
+void Radio::drop_candidates(FrameOutcome outcome) {
     if (!detects_preambles()) {
         return;
     }
     for (const Candidate& candidate : candidates_) {
         simulator().cancel(candidate.detection);
-        book(*candidate.arrival.transmission, fate);
+        book(*candidate.arrival.transmission, outcome);
     }
     candidates_.clear();
 }
@@ -161,8 +161,8 @@ void Radio::end_header() {
     if (header_survives(interference)) {
         return;
     }
-    add_to_fingerprint(present_.unlock(), FrameFate::header_error);
-    book_loss(locked_arrival_, FrameFate::header_error, interference);
+    add_to_fingerprint(present_.unlock(), FrameOutcome::header_error);
+    book_loss(locked_arrival_, FrameOutcome::header_error, interference);
     listener_->frame_corrupted({.header_lost = true});
     ignores_energy_ = model_.preamble_detection.frees_channel() && !began_in_header_;
     update_busy();
@@ -187,7 +187,7 @@ void Radio::arrival_ended(const Arrival& arrival) {
         const auto undetected = candidate_of(arrival.transmission);
         simulator().cancel(undetected->detection);
         candidates_.erase(undetected);
-        book(*arrival.transmission, FrameFate::preamble_undetected);
+        book(*arrival.transmission, FrameOutcome::preamble_undetected);
     }
     update_busy();
 }
@@ -200,18 +200,18 @@ void Radio::end_report() {
 void Radio::end_reception(const Arrival& arrival) {
     const Transmission& transmission = *arrival.transmission;
     InterferenceSum* interference = nullptr;
-    const FrameFate fate =
+    const FrameOutcome outcome =
         model_.by_chunks ? decide_data(arrival, interference) : decide_at_once(arrival, interference);
-    const bool decoded = fate == FrameFate::delivered;
-    add_to_fingerprint(transmission, fate);
+    const bool decoded = outcome == FrameOutcome::delivered;
+    add_to_fingerprint(transmission, outcome);
     if (is_observed_) {
         observer_->received(arrival, model_.reception.noise_w + other_systems_w(arrival), decoded);
     }
     if (decoded) {
-        book(transmission, fate);
+        book(transmission, outcome);
         listener_->frame_received(transmission);
     } else {
-        book_loss(arrival, fate, interference);
+        book_loss(arrival, outcome, interference);
         const double most_w = model_.reception.noise_w + medium().max_interference_w(arrival);
         listener_->frame_corrupted({.others_are_weak = most_w < model_.energy_detection_w * (1 - 1e-6)});
     }
@@ -219,7 +219,7 @@ void Radio::end_reception(const Arrival& arrival) {
 
 // One random number decides both cases, with and without interference. A frame counts as lost to
 // noise if it would be lost without interference by the same number.
-FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause) {
+FrameOutcome Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause) {
     // In a large network, some transmission is always on the air, usually far away. Then a bound of
     // the interference suffices, usually even without drawing the number.
     const double systems_w = other_systems_w(arrival);
@@ -227,31 +227,31 @@ FrameFate Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause)
         model_.reception.min_success(arrival, medium().max_interference_w(arrival) + systems_w);
     if (min_success == 1) {
         ++drawn_;  // skips the number
-        return FrameFate::delivered;
+        return FrameOutcome::delivered;
     }
     const double draw = this->draw();
     if (draw < min_success ||
         draw < model_.reception.min_success(arrival, medium().max_interference_w(id_, arrival) + systems_w)) {
-        return FrameFate::delivered;
+        return FrameOutcome::delivered;
     }
     listener_->prefetch_for_corrupted_frame();  // meanwhile, the sum is computed
-    medium().fates().prefetch(node(), arrival.transmission->label.kind, FrameFate::interference);
+    medium().outcomes().prefetch(node(), arrival.transmission->label.kind, FrameOutcome::interference);
     InterferenceSum& interference = interference_in(arrival, {arrival.start, arrival.end});
     const double interference_w = interference.worst_w();
     if (model_.reception.survives(draw, arrival, interference_w)) {
-        return FrameFate::delivered;
+        return FrameOutcome::delivered;
     }
     if (interference_w > systems_w && model_.reception.survives(draw, arrival, systems_w)) {
         cause = &interference;
-        return FrameFate::interference;
+        return FrameOutcome::interference;
     }
-    return FrameFate::noise;
+    return FrameOutcome::noise;
 }
 
-FrameFate Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
+FrameOutcome Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
     if (simulator().cancel(header_end_)) {  // the frame ends with its header
         if (!header_survives(cause)) {
-            return FrameFate::header_error;
+            return FrameOutcome::header_error;
         }
         cause = nullptr;
     }
@@ -259,16 +259,16 @@ FrameFate Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
     const Period period = period_of(FramePart::data, arrival);
     InterferenceSum& interference = interference_in(arrival, period);
     if (draw < model_.reception.success(FramePart::data, arrival, interference)) {
-        return FrameFate::delivered;
+        return FrameOutcome::delivered;
     }
     InterferenceSum systems;
     systems.begin(period.start, period.end);
     medium().other_systems().add_to(systems, stream_, period.start, period.end);
     if (draw < model_.reception.success(FramePart::data, arrival, systems)) {
         cause = &interference;
-        return FrameFate::interference;
+        return FrameOutcome::interference;
     }
-    return FrameFate::noise;
+    return FrameOutcome::noise;
 }
 
 bool Radio::is_receiving_header() const {
@@ -281,28 +281,28 @@ bool Radio::header_survives(InterferenceSum*& interference) {
     return draw() < model_.reception.success(FramePart::header, locked_arrival_, *interference);
 }
 
-void Radio::add_to_fingerprint(const Transmission& transmission, FrameFate fate) {
-    medium().fingerprint().add((transmission.id() << 8) ^ static_cast<std::uint64_t>(fate));
+void Radio::add_to_fingerprint(const Transmission& transmission, FrameOutcome outcome) {
+    medium().fingerprint().add((transmission.id() << 8) ^ static_cast<std::uint64_t>(outcome));
     medium().fingerprint().add(std::uint64_t{stream_});
 }
 
-void Radio::book(const Transmission& transmission, FrameFate fate) {
-    medium().fates().book(node(), transmission.label, fate);
+void Radio::book(const Transmission& transmission, FrameOutcome outcome) {
+    medium().outcomes().book(node(), transmission.label, outcome);
 }
 
-void Radio::book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference) {
-    tell_loss(arrival, fate, interference);
+void Radio::book_loss(const Arrival& arrival, FrameOutcome outcome, InterferenceSum* interference) {
+    tell_loss(arrival, outcome, interference);
     const Transmission& lost = *arrival.transmission;
-    if (fate == FrameFate::interference) {
-        medium().fates().book_interference(node(), lost.label, interference->interferers());
+    if (outcome == FrameOutcome::interference) {
+        medium().outcomes().book_interference(node(), lost.label, interference->interferers());
     } else {
-        book(lost, fate);
+        book(lost, outcome);
     }
 }
 
-void Radio::tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference) {
+void Radio::tell_loss(const Arrival& arrival, FrameOutcome outcome, InterferenceSum* interference) {
     const Transmission& lost = *arrival.transmission;
-    FrameObserver* const observer = medium().fates().observer();
+    FrameObserver* const observer = medium().outcomes().observer();
     if (observer == nullptr || !observer->explains(lost.sender.node, node())) {
         return;
     }
@@ -312,9 +312,9 @@ void Radio::tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* i
         .budget = medium().power_budget(id_, arrival),
         .noise_w = model_.reception.noise_w +
                    (interference == nullptr ? other_systems_w(arrival) : interference->worst_noise_w())};
-    if (fate == FrameFate::header_error) {
+    if (outcome == FrameOutcome::header_error) {
         loss.needed = model_.needed_header_snir(*lost.mode);
-    } else if (fate != FrameFate::preamble_undetected) {
+    } else if (outcome != FrameOutcome::preamble_undetected) {
         loss.needed = model_.needed_snir(*lost.mode, lost.psdu_bytes);
     } else if (arrival.power_w < model_.preamble_detection.minimum_power_w()) {
         loss.needed = model_.preamble_detection.minimum_power_w();

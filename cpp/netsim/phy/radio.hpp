@@ -161,7 +161,7 @@ private:
         return detects_preambles() && candidate_of(transmission) != candidates_.end();
     }
     void end_detection(const Transmission* transmission);
-    void drop_candidates(FrameFate fate);
+    void drop_candidates(FrameOutcome outcome);
     void lock_on(const Arrival& arrival);
     void give_up_reception();
     void end_header();
@@ -169,13 +169,13 @@ private:
     void end_report();
     double draw() { return RandomStream(model_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
     // Both draw random numbers, and set `cause` only if the frame was lost to interference.
-    FrameFate decide_at_once(const Arrival& arrival, InterferenceSum*& cause);
-    FrameFate decide_data(const Arrival& arrival, InterferenceSum*& cause);
-    void book_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
+    FrameOutcome decide_at_once(const Arrival& arrival, InterferenceSum*& cause);
+    FrameOutcome decide_data(const Arrival& arrival, InterferenceSum*& cause);
+    void book_loss(const Arrival& arrival, FrameOutcome outcome, InterferenceSum* interference);
     // Fills in the interference with the header. Valid until the medium is asked for another one.
     bool header_survives(InterferenceSum*& interference);
     // Tells the observer of a loss, if there is one. `interference` may be null.
-    void tell_loss(const Arrival& arrival, FrameFate fate, InterferenceSum* interference);
+    void tell_loss(const Arrival& arrival, FrameOutcome outcome, InterferenceSum* interference);
     // Always false without PreambleDetection::frees_channel.
     bool is_receiving_header() const;
     // Other frames and other systems.
@@ -188,8 +188,8 @@ private:
     double other_systems_w(const Arrival& arrival) const {
         return medium().other_systems().max_w(stream_, arrival.start, arrival.end);
     }
-    void add_to_fingerprint(const Transmission& transmission, FrameFate fate);
-    void book(const Transmission& transmission, FrameFate fate);
+    void add_to_fingerprint(const Transmission& transmission, FrameOutcome outcome);
+    void book(const Transmission& transmission, FrameOutcome outcome);
     void transmission_over();
     void update_busy();
 

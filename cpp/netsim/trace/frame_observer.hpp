@@ -13,7 +13,7 @@
 namespace netsim {
 
 struct Transmission;  // propagation/transmission.hpp
-enum class FrameFate : std::uint8_t;
+enum class FrameOutcome : std::uint8_t;
 
 class FrameObserver {
 public:
@@ -45,7 +45,7 @@ public:
     // that of the destination.
     virtual void frame_begins(const Transmission& transmission, std::uint64_t noticed, std::uint64_t too_weak,
                               std::span<const Loss> missed) = 0;
-    virtual void reception_ends(FrameNumber number, NodeId receiver, FrameFate fate) = 0;
+    virtual void reception_ends(FrameNumber number, NodeId receiver, FrameOutcome outcome) = 0;
     // Called before reception_ends, for a reception that ends with the frame and is lost.
     virtual void frame_lost(FrameNumber number, const Loss& loss) = 0;
 };

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "netsim/trace/delay_histogram.hpp"
-#include "netsim/trace/message_fates.hpp"
+#include "netsim/trace/message_outcomes.hpp"
 
 namespace netsim {
 

@@ -10,7 +10,7 @@ from gradysim.cli.output import (
     files_beside_result,
     files_for_omnetpp,
     have_labels,
-    ids_of_fates,
+    ids_of_outcomes,
     nodes_of_vectors,
 )
 from gradysim.results.files import (
@@ -139,7 +139,9 @@ def _state_of(scenario: Scenario, options: RunOptions) -> tuple[State, tuple[str
     """Return the state of a run that has a result, and the files that have changed since."""
     if is_done(scenario, options):
         return State.DONE, ()
-    changed = files_changed_since(scenario, options.mode, options.directory, ids_of_fates(scenario, options))
+    changed = files_changed_since(
+        scenario, options.mode, options.directory, ids_of_outcomes(scenario, options)
+    )
     if changed:
         return State.OF_OTHER_FILES, changed
     if changed is not None:
@@ -161,7 +163,9 @@ def _with_result(study: Study, options: RunOptions) -> list[int]:
 
 def is_done(scenario: Scenario, options: RunOptions) -> bool:
     """Return whether the directory has an up-to-date result of the run, with all requested files."""
-    changed = files_changed_since(scenario, options.mode, options.directory, ids_of_fates(scenario, options))
+    changed = files_changed_since(
+        scenario, options.mode, options.directory, ids_of_outcomes(scenario, options)
+    )
     return changed == () and _has_left_its_files(scenario, options)
 
 

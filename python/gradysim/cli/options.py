@@ -155,7 +155,7 @@ class RunOptions:
 
     resume: Flag = False
     """Skip runs whose file in --result-dir is complete and has the same settings, seed and files (protocols,
-    obstacles), with the output of --scalars, --vectors, --pcap, --replay and --fates-at. Results of other
+    obstacles), with the output of --scalars, --vectors, --pcap, --replay and --outcomes-at. Results of other
     settings or seeds are an error, as without this option."""
 
     replace: Flag = False
@@ -205,7 +205,7 @@ class RunOptions:
     """Print what protocols log from this level on; default: info, with --quiet warning. With debug, also
     print what gradysim logs."""
 
-    fates_at: Names = ()
+    outcomes_at: Annotated[Names, Parameter(alias="--fates-at")] = ()
     """NODE...: report the outcomes of frames at these nodes, the interferers, and the outcomes of messages
     that these nodes sent. A node (uavs[0]), a group (uavs), or all."""
 

@@ -32,9 +32,9 @@ from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario, nodes_named
 
 
-def ids_of_fates(scenario: Scenario, options: RunOptions) -> list[int]:
-    """Return the ids of the nodes that --fates-at names."""
-    return [node.id for node in nodes_named(scenario, options.fates_at)]
+def ids_of_outcomes(scenario: Scenario, options: RunOptions) -> list[int]:
+    """Return the ids of the nodes that --outcomes-at names."""
+    return [node.id for node in nodes_named(scenario, options.outcomes_at)]
 
 
 def nodes_of_vectors(scenario: Scenario, options: RunOptions) -> list[NodeSpec]:

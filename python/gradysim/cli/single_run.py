@@ -13,7 +13,7 @@ from gradysim.cli.errors import FAILED, INTERRUPTED, MISTAKE, OK, print_failure
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import limited
 from gradysim.cli.options import RunOptions
-from gradysim.cli.output import captures_under_way, ids_of_fates, log_level, nodes_of_vectors, replay_sink
+from gradysim.cli.output import captures_under_way, ids_of_outcomes, log_level, nodes_of_vectors, replay_sink
 from gradysim.cli.progress import RunProgress, waiting
 from gradysim.cli.summary import print_summary, run_line
 from gradysim.integrated.compiled_part import CompiledPartMissingError
@@ -192,7 +192,7 @@ def simulator(options: RunOptions) -> tuple[Check, Callable[[Scenario], Run]]:
         from gradysim.prototype.simulation import check_scenario
 
         require_no_names("--pcap", options.pcap, "no frames to capture")
-        require_no_names("--fates-at", options.fates_at, "no outcomes of frames")
+        require_no_names("--outcomes-at", options.outcomes_at, "no outcomes of frames")
 
         def check_all(scenario: Scenario, *, is_built_next: bool) -> None:
             check_scenario(scenario)
@@ -218,7 +218,7 @@ def simulator(options: RunOptions) -> tuple[Check, Callable[[Scenario], Run]]:
         return IntegratedRun(
             scenario,
             captures_under_way(scenario, options),
-            fates_at=ids_of_fates(scenario, options),
+            outcomes_at=ids_of_outcomes(scenario, options),
             vectors_of=[node.id for node in nodes_of_vectors(scenario, options)],
             replay=replay_sink(scenario, options),
             log_level=log_level(options),
@@ -240,7 +240,7 @@ def check_names(scenarios: Sequence[Scenario], options: RunOptions, run_count: i
     """
     for option, names in (
         ("--pcap", options.pcap),
-        ("--fates-at", options.fates_at),
+        ("--outcomes-at", options.outcomes_at),
         ("--vectors", options.vectors),
         ("--replay", options.replay),
         ("--trace", options.trace),

@@ -58,7 +58,7 @@ def summary(result: RunResult) -> RenderableType:
     if result.nodes:
         few = len(result.nodes) <= MAX_ROWS
         parts += [Text(), table_of_nodes(result.nodes) if few else table_of_groups(result.nodes)]
-    for ledger, counts in result.fates.items():
+    for ledger, counts in result.outcomes.items():
         delays = result.message_delays if ledger == "messages" else {}
         if (table := table_of_kinds(LEDGERS[ledger].label, counts, delays)) is not None:
             parts += [Text(), table]
@@ -71,7 +71,7 @@ def detailed_summary(result: RunResult) -> RenderableType:
     if result.nodes:
         shown, rest = some_of(result.nodes)
         parts += [title("Nodes"), node_table(shown), *rest]
-    for ledger, counts in result.fates.items():
+    for ledger, counts in result.outcomes.items():
         if (table := network_outcomes(counts)) is not None:
             parts += [title(LEDGERS[ledger].title), table]
     if result.message_delays:
@@ -98,7 +98,7 @@ def key_numbers(result: RunResult) -> Iterator[str]:
             numbers = _numbers(nodes, name)
             if numbers:
                 yield _printable(f"{prefix}{name} {sum(numbers) / len(numbers):.5g}")
-    for average in outcome_ratios(result.fates):
+    for average in outcome_ratios(result.outcomes):
         if average.name in ARRIVED:
             yield f"{ARRIVED[average.name]} {100 * average.value:.4g} %"
 
@@ -194,19 +194,19 @@ def table_of_kinds(label: str, counts: Counts, delays: Mapping[str, Delays]) -> 
 
 
 def at_nodes(result: RunResult) -> list[RenderableType]:
-    """Return the outcomes at the nodes of `--fates-at`, and of messages from them."""
-    chosen = tuple(node for node in result.nodes if node.frame_fates is not None)
+    """Return the outcomes at the nodes of `--outcomes-at`, and of messages from them."""
+    chosen = tuple(node for node in result.nodes if node.frame_outcomes is not None)
     if not chosen:
         return []
     shown, rest = some_of(chosen)
     parts: list[RenderableType] = [title("Outcomes of frames at nodes, for any destination")]
-    parts.append(frames_at_nodes(shown, result.fates["frames"]))
+    parts.append(frames_at_nodes(shown, result.outcomes["frames"]))
     if overheard := kinds_overheard(shown):
         parts.append(Text(f"of {overheard}, frames for other nodes that were overheard count, too"))
     if any(node.interferers for node in shown):
         parts += [title("Lost to interference, and with frames of which nodes"), interferer_table(shown)]
     parts.append(title("Messages from nodes and their outcomes"))
-    parts.append(messages_from_nodes(shown, result.fates["messages"]))
+    parts.append(messages_from_nodes(shown, result.outcomes["messages"]))
     return [*parts, *rest]
 
 
@@ -410,7 +410,9 @@ def frames_at_nodes(nodes: Iterable[NodeResult], network: Counts) -> RenderableT
     Columns are in the order of the outcomes of the network.
     """
     rows = {
-        f"{node.name} {kind}": counts for node in nodes for kind, counts in (node.frame_fates or {}).items()
+        f"{node.name} {kind}": counts
+        for node in nodes
+        for kind, counts in (node.frame_outcomes or {}).items()
     }
     if not rows:
         return Text("no frame was strong enough to be received there")
@@ -422,14 +424,14 @@ def messages_from_nodes(nodes: Iterable[NodeResult], network: Counts) -> Rendera
     rows = {
         f"{_sender(node, interface)} {kind}": counts
         for node in nodes
-        for interface, kinds in (node.message_fates or {}).items()
+        for interface, kinds in (node.message_outcomes or {}).items()
         for kind, counts in kinds.items()
     }
     return _node_tables("from", rows, network) if rows else Text("no protocol sent a message there")
 
 
 def _sender(node: NodeResult, interface: str) -> str:
-    return f"{node.name}.{interface}" if len(node.message_fates or {}) > 1 else node.name
+    return f"{node.name}.{interface}" if len(node.message_outcomes or {}) > 1 else node.name
 
 
 def _node_tables(corner: str, rows: Counts, network: Counts) -> WideTable:
@@ -446,7 +448,7 @@ def _node_tables(corner: str, rows: Counts, network: Counts) -> WideTable:
 
 def kinds_overheard(nodes: Iterable[NodeResult]) -> str:
     """Return the kinds of frames for one node that the nodes also overheard of others; "" if none."""
-    kinds = dict.fromkeys(kind for node in nodes for kind in node.frame_fates or {} if kind != "broadcast")
+    kinds = dict.fromkeys(kind for node in nodes for kind in node.frame_outcomes or {} if kind != "broadcast")
     *others, last = kinds or [""]
     return f"{', '.join(others)} and {last}" if others else last
 
@@ -458,7 +460,7 @@ def interferer_table(nodes: Iterable[NodeResult]) -> Table:
     )
     for node in nodes:
         if node.interferers:
-            lost = sum(counts.get("interference", 0) for counts in (node.frame_fates or {}).values())
+            lost = sum(counts.get("interference", 0) for counts in (node.frame_outcomes or {}).values())
             table.add_row(Text(node.name), f"{lost:,}", Text(_strongest(node.interferers.items())))
     return table
 

@@ -58,7 +58,7 @@ class IntegratedRun(ScenarioRun):
         scenario: Scenario,
         captures: Mapping[int, str | Path] | None = None,
         *,
-        fates_at: Iterable[int] = (),
+        outcomes_at: Iterable[int] = (),
         vectors_of: Iterable[int] = (),
         handlers: Iterable[INodeHandler] = (),
         real_time: bool | float = False,
@@ -71,9 +71,9 @@ class IntegratedRun(ScenarioRun):
             scenario: One of those that `load_scenarios` returns.
             captures: {id of a node: pcap file of its sent and received frames}. `wlan[1]` of a node with
                 FILE.pcap writes FILE-wlan1.pcap. The files are complete when the run has ended.
-            fates_at: Ids of the nodes whose results have outcomes and interferers:
-                `NodeResult.frame_fates`, `interferers` and `message_fates`. They do not change or slow the
-                run.
+            outcomes_at: Ids of the nodes whose results have outcomes and interferers:
+                `NodeResult.frame_outcomes`, `interferers` and `message_outcomes`. They do not change or slow
+                the run.
             vectors_of: Ids of the nodes whose results have numbers over time, `NodeResult.vectors`.
             handlers: Watch the run, as in prototype mode: assertions, a viewer, your own. A handler that
                 overrides `after_simulation_step` is called after every event of the engine, several for each
@@ -94,7 +94,7 @@ class IntegratedRun(ScenarioRun):
         """
         super().__init__(scenario, vectors_of, replay, log_level)
         self._real_time_factor = real_time_factor(real_time)
-        self._fates_at = frozenset(checked_ids("fates_at", fates_at, len(scenario.nodes)))
+        self._outcomes_at = frozenset(checked_ids("outcomes_at", outcomes_at, len(scenario.nodes)))
         files = checked_captures(captures or {}, scenario)
         with gc_paused():
             self._network, self._nodes = build_network(scenario)
@@ -228,7 +228,7 @@ class IntegratedRun(ScenarioRun):
             "sim_time_s": network.now,
             "events": network.event_count,
             "fingerprint": network.fingerprint,
-            "fates": {"frames": network.frame_fates(), "messages": network.message_fates()},
+            "outcomes": {"frames": network.frame_outcomes(), "messages": network.message_outcomes()},
             "range_m": mean_range_m(ranges_m(self._scenario)),
             "message_delays": {kind: Delays(**delays) for kind, delays in network.message_delays().items()},
         }
@@ -241,19 +241,19 @@ class IntegratedRun(ScenarioRun):
                 "tracked_variables": dict(encapsulator.provider.tracked_variables),
                 "frames_by_bitrate": network.frames_by_bitrate(node.id),
             }
-            if node.id in self._fates_at:
-                measured.update(self._outcomes_at(node.id))
+            if node.id in self._outcomes_at:
+                measured.update(self._outcomes_of_node(node.id))
             yield measured
 
-    def _outcomes_at(self, node_id: int) -> Mapping[str, Any]:
+    def _outcomes_of_node(self, node_id: int) -> Mapping[str, Any]:
         """Return the counts at one node. Only on request, since they take long for thousands of nodes."""
         network, specs = self._network, self._scenario.nodes
         return {
-            "frame_fates": _without_zeros(network.frame_fates_at(node_id)),
+            "frame_outcomes": _without_zeros(network.frame_outcomes_at(node_id)),
             "interferers": {specs[by].name: count for by, count in network.interferers_at(node_id).items()},
-            "message_fates": {
+            "message_outcomes": {
                 interface: _without_zeros(counts)
-                for interface, counts in network.message_fates_from(node_id).items()
+                for interface, counts in network.message_outcomes_from(node_id).items()
             },
         }
 
@@ -271,7 +271,7 @@ def run(
     progress: Callable[[float], None] | None = None,
     should_stop: Callable[[], bool] | None = None,
     captures: Mapping[int, str | Path] | None = None,
-    fates_at: Iterable[int] = (),
+    outcomes_at: Iterable[int] = (),
     vectors_of: Iterable[int] = (),
     handlers: Iterable[INodeHandler] = (),
     real_time: bool | float = False,
@@ -282,7 +282,7 @@ def run(
     integrated_run = IntegratedRun(
         scenario,
         captures,
-        fates_at=fates_at,
+        outcomes_at=outcomes_at,
         vectors_of=vectors_of,
         handlers=handlers,
         real_time=real_time,

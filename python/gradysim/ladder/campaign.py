@@ -213,8 +213,8 @@ class Campaign:
         if run is None:
             return Observation(failure=failure)
         result = run.result()
-        losses, receptions = losses_of(result.fates)
-        messages = messages_of(result.fates)
+        losses, receptions = losses_of(result.outcomes)
+        messages = messages_of(result.outcomes)
         if failure is not None:
             return Observation({}, losses, receptions, messages, failure)
         summary = RunSummary.of(result.to_json_object())

@@ -15,7 +15,7 @@ from gradysim.plots.numbers import (
 )
 from gradysim.results.outcomes import Outcomes, decided
 from gradysim.results.quantity_table import variables_of
-from gradysim.results.run_table import Runs, fates_of
+from gradysim.results.run_table import Runs, outcomes_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,13 +40,13 @@ def outcomes_numbers(
 ) -> Numbers:
     """Return the ratio of each outcome for each value of `x`, averaged over runs.
 
-    `y` is `broadcast frames`, `unicast messages` and so on: a kind, and a ledger of `fates`. `omit` names
+    `y` is `broadcast frames`, `unicast messages` and so on: a kind, and a ledger of `outcomes`. `omit` names
     outcomes to leave out, such as `below sensitivity`. Ratios refer to the others. Raises ConfigError.
     """
-    fates = {id(run): fates_of(run) for run in runs}
-    check_quantity(runs, y, _names(fates.values()))
+    by_run = {id(run): outcomes_of(run) for run in runs}
+    check_quantity(runs, y, _names(by_run.values()))
     kind, _, ledger = y.rpartition(" ")
-    counts = {run: _counts(each, ledger, kind, set(omit)) for run, each in fates.items()}
+    counts = {run: _counts(each, ledger, kind, set(omit)) for run, each in by_run.items()}
     axis = x_axis(runs, x) if x else None
     bars: list[tuple[dict[str, Any], list[dict[str, int]]]] = []
     for place in axis.places if axis else [None]:
@@ -71,11 +71,11 @@ def outcomes_numbers(
 
 def outcome_names(runs: Runs) -> list[str]:
     """Return the names for `y`: `broadcast frames` and so on."""
-    return _names(map(fates_of, runs))
+    return _names(map(outcomes_of, runs))
 
 
-def _names(fates: Iterable[Outcomes]) -> list[str]:
-    names = {f"{kind} {ledger}" for each in fates for ledger, kinds in each.items() for kind in kinds}
+def _names(outcomes: Iterable[Outcomes]) -> list[str]:
+    names = {f"{kind} {ledger}" for each in outcomes for ledger, kinds in each.items() for kind in kinds}
     return sorted(names)
 
 
@@ -101,8 +101,8 @@ def draw_outcomes(axes: "Axes", numbers: Numbers) -> "Axes":
     return axes
 
 
-def _counts(fates: Outcomes, ledger: str, kind: str, omit: set[str]) -> dict[str, int]:
-    counts = decided(fates.get(ledger, {}).get(kind, {}))
+def _counts(outcomes: Outcomes, ledger: str, kind: str, omit: set[str]) -> dict[str, int]:
+    counts = decided(outcomes.get(ledger, {}).get(kind, {}))
     return {outcome: count for outcome, count in counts.items() if outcome not in omit}
 
 

@@ -97,7 +97,7 @@ class PrototypeRun(ScenarioRun):
             "sim_time_s": simulator.current_time,
             "events": simulator.iteration,
             "fingerprint": None,
-            "fates": {"frames": ledger.frame_fates(), "messages": ledger.message_fates()},
+            "outcomes": {"frames": ledger.frame_outcomes(), "messages": ledger.message_outcomes()},
             "range_m": mean_range_m(ranges_of_prototype_m(self._scenario)),
             "message_delays": {
                 kind: constant_delays(counts)

@@ -9,7 +9,7 @@ from gradysim.results.paired import compare_pairs
 from gradysim.results.quantity import Names
 from gradysim.results.quantity_table import QuantityTable, grouped, union, values_of, variables_of
 from gradysim.results.run_summary import RunSummary
-from gradysim.results.run_table import Runs, fates_of
+from gradysim.results.run_table import Runs, outcomes_of
 from gradysim.scenario.errors import ConfigError
 
 _OWN = ("run", "seed")
@@ -79,7 +79,7 @@ class Pairs:
 
         A mode that does not have a cause loses nothing by it.
         """
-        shares = {id(run): loss_shares(fates_of(run)) for run in self.all_runs}
+        shares = {id(run): loss_shares(outcomes_of(run)) for run in self.all_runs}
         causes = union(
             [(kind, cause) for kind, of_kind in of_kinds.items() for cause, share in of_kind.items() if share]
             for of_kinds in shares.values()

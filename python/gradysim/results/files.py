@@ -19,6 +19,9 @@ CHECKSUM = "checksum"
 """The last field of a result file: hash of the file with an empty string in its place."""
 
 _RUN_FILE = re.compile(rf".+-#\d+\.({'|'.join(get_args(Mode))})\.json")
+_FORMER_NAMES = {"fates": "outcomes", "frame_fates": "frame_outcomes", "message_fates": "message_outcomes"}
+"""Names of fields in the files of earlier versions."""
+
 _NO_CHECKSUM = f'"{CHECKSUM}": ""\n}}\n'
 
 
@@ -42,18 +45,18 @@ def _stem(config: str, run: int, mode: Mode) -> str:
 
 
 def files_changed_since(
-    scenario: Scenario, mode: Mode, directory: Path, fates_at: Iterable[int] = ()
+    scenario: Scenario, mode: Mode, directory: Path, outcomes_at: Iterable[int] = ()
 ) -> tuple[str, ...] | None:
     """Return the files in settings, such as protocols, that have changed since the run.
 
     None if the run is not done: `directory` does not have a complete result of it with the same settings,
-    seed and outcomes at the nodes `fates_at`, by their ids.
+    seed and outcomes at the nodes `outcomes_at`, by their ids.
     """
     result = _read(run_file(directory, scenario.config, scenario.run_number, mode))
     if (
         not _has_settings_of(scenario, result)
         or result.get("interrupted") is not False
-        or not _has_fates_at(fates_at, result.get("nodes"))
+        or not _has_outcomes_at(outcomes_at, result.get("nodes"))
     ):
         return None
     return _changed(result.get("file_hashes"), scenario.file_hashes)
@@ -120,11 +123,11 @@ def _changed(before: object, now: Mapping[str, str]) -> tuple[str, ...]:
     return tuple(sorted(name for name in {*known, *now} if known.get(name) != now.get(name)))
 
 
-def _has_fates_at(fates_at: Iterable[int], nodes: object) -> bool:
+def _has_outcomes_at(outcomes_at: Iterable[int], nodes: object) -> bool:
     told = nodes if isinstance(nodes, list) else []
-    asked = {"frame_fates", "message_fates"}
+    asked = {"frame_outcomes", "message_outcomes"}
     return {node.get("id") for node in told if isinstance(node, dict) and asked <= node.keys()}.issuperset(
-        fates_at
+        outcomes_at
     )
 
 
@@ -174,7 +177,19 @@ def parsed(content: bytes) -> dict[str, Any]:
         begin, _, end = text.rpartition(f'"{checksum}"')
         if _hash_of_text(f'{begin}""{end}') != checksum:
             raise ValueError(f"its content does not fit its {CHECKSUM}")
+    return _with_names_of_now(found) if "fates" in found else found
+
+
+def _with_names_of_now(result: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the result of an earlier version with the names that its fields have now."""
+    found = _renamed(result)
+    if isinstance(nodes := found.get("nodes"), list):
+        found["nodes"] = [_renamed(node) if isinstance(node, dict) else node for node in nodes]
     return found
+
+
+def _renamed(fields: Mapping[str, Any]) -> dict[str, Any]:
+    return {_FORMER_NAMES.get(name, name): value for name, value in fields.items()}
 
 
 def bytes_of(file: Path) -> bytes:

@@ -1,7 +1,6 @@
 """Outcomes of frames and messages: counts by kind and outcome, as scalars and as ratios.
 
-A frame has a reception at each radio that could decode it, and each reception has one outcome. In files these
-counts are called `fates`.
+A frame has a reception at each radio that could decode it, and each reception has one outcome.
 """
 
 import re

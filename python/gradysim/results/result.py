@@ -100,11 +100,11 @@ class NodeResult:
             scalars=_bitrate_scalars,
         ),
     ] = field(default_factory=dict)
-    frame_fates: Annotated[
+    frame_outcomes: Annotated[
         Counts | None,
         Quantity(
-            "With `--fates-at`: `frame_fates[KIND][OUTCOME]`, receptions at this node of frames that were"
-            " strong enough, for any destination.",
+            "With `--outcomes-at`: `frame_outcomes[KIND][OUTCOME]`, receptions at this node of frames that"
+            " were strong enough, for any destination.",
             scalar="`KIND:OUTCOME:count`",
             omitted=(None,),
             to_json=plain_counts,
@@ -114,19 +114,19 @@ class NodeResult:
     interferers: Annotated[
         Mapping[str, int] | None,
         Quantity(
-            "With `--fates-at`: `interferers[NAME]`, receptions that were lost here to interference by frames"
-            " of the node of that name, alone or with others.",
+            "With `--outcomes-at`: `interferers[NAME]`, receptions that were lost here to interference by"
+            " frames of the node of that name, alone or with others.",
             scalar="`interferer:NAME:count`",
             omitted=(None,),
             to_json=dict,
             scalars=_interferer_scalars,
         ),
     ] = None
-    message_fates: Annotated[
+    message_outcomes: Annotated[
         Mapping[str, Counts] | None,
         Quantity(
-            'With `--fates-at`: `message_fates["wlan[0]"][KIND][OUTCOME]`, messages that the protocol sent'
-            " through each interface.",
+            'With `--outcomes-at`: `message_outcomes["wlan[0]"][KIND][OUTCOME]`, messages that the protocol'
+            " sent through each interface.",
             scalar="`wlan[0]`: `KINDMessage:OUTCOME:count`",
             omitted=(None,),
             to_json=lambda interfaces: {name: plain_counts(counts) for name, counts in interfaces.items()},
@@ -201,11 +201,11 @@ class RunResult:
             "Hash of all frames, messages and timers in their order; `null` in prototype mode.",
         ),
     ]
-    fates: Annotated[
+    outcomes: Annotated[
         Outcomes,
         Quantity(
             "Outcomes of frames and messages, also those that are 0:"
-            ' `fates["frames"][KIND][OUTCOME]` and `fates["messages"]`.',
+            ' `outcomes["frames"][KIND][OUTCOME]` and `outcomes["messages"]`.',
             scalar="`radioMedium`: `KIND:OUTCOME:count`; `KINDMessage:OUTCOME:count`",
             mean="`KIND messages OUTCOME`, `KIND frames delivered`",
             scalars=outcome_scalars,
@@ -289,8 +289,8 @@ class RunResult:
     ) -> Annotated[
         str,
         Quantity(
-            "Hash of all that the run computed: `sim_time_s`, `fingerprint`, `fates`, `message_delays`, and"
-            " the position, the tracked variables and `frames_by_bitrate` of each node. Two runs with one"
+            "Hash of all that the run computed: `sim_time_s`, `fingerprint`, `outcomes`, `message_delays`,"
+            " and the position, the tracked variables and `frames_by_bitrate` of each node. Two runs with one"
             " hash did the same."
         ),
     ]:
@@ -320,7 +320,7 @@ class RunResult:
             ("of", "kind", "outcome", "count"),
             [
                 (of, kind, outcome.replace("_", " "), f"{count:,}")
-                for of, kinds in self.fates.items()
+                for of, kinds in self.outcomes.items()
                 for kind, counts in kinds.items()
                 for outcome, count in counts.items()
                 if count

@@ -15,7 +15,7 @@ from gradysim.results.pack import PackedFile, packed_files, packed_summaries, pa
 from gradysim.results.run_summary import Conditions, RunSummary, in_order
 from gradysim.scenario.errors import ConfigError, Source
 
-_FIELDS = {"config", "mode", "run", "interrupted", "fates", "nodes", "iterations"}
+_FIELDS = {"config", "mode", "run", "interrupted", "outcomes", "nodes", "iterations"}
 """Fields that distinguish the result of a run from other JSON files."""
 
 

@@ -8,9 +8,12 @@ from typing import Any
 
 from gradysim.scenario.runs import HASH_DIGITS
 
-OF_RUN = ("sim_time_s", "fingerprint", "fates", "message_delays", "nodes")
+OF_RUN = ("sim_time_s", "fingerprint", "outcomes", "message_delays", "nodes")
 OF_NODE = ("name", "position", "tracked_variables", "frames_by_bitrate")
 """Fields that every run has. Others depend on options of a command, on the file, or on the machine."""
+
+_HASHED_AS = {"outcomes": "fates"}
+"""The former names of fields, under which they are hashed, so that hashes in stored files remain valid."""
 
 _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 """Part of the `repr` of an object, `<swarm.Mate object at 0x7f0c>`, that differs between processes."""
@@ -18,7 +21,7 @@ _ADDRESS = re.compile(r" at 0x[0-9a-fA-F]+")
 
 def result_hash(result: Mapping[str, Any]) -> str:
     """Return the hash of the computed fields of a run, from its JSON object or these fields of it."""
-    computed = {name: result[name] for name in OF_RUN if name in result}
+    computed = {_HASHED_AS.get(name, name): result[name] for name in OF_RUN if name in result}
     computed["nodes"] = [
         {name: node[name] for name in OF_NODE if name in node} for node in result.get("nodes", ())
     ]

@@ -200,10 +200,10 @@ def nodes_of(run: RunSummary) -> list[dict[str, Any]]:
     return nodes
 
 
-def fates_of(run: RunSummary) -> Outcomes:
+def outcomes_of(run: RunSummary) -> Outcomes:
     """Return the outcomes in a run's file. Raises OSError, and ValueError if it is damaged."""
-    fates: Outcomes = read_run_file(run.file)["fates"]
-    return fates
+    outcomes: Outcomes = read_run_file(run.file)["outcomes"]
+    return outcomes
 
 
 def _check(names: Names | None, known: Iterable[str]) -> None:

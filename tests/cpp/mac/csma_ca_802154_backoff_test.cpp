@@ -42,7 +42,7 @@ TEST_F(CsmaCa802154BackoffTest, WaitsGrowWhileTheChannelIsBusy) {
     air.run();
     ASSERT_EQ(sniffer.heard.size(), 2U);
     EXPECT_EQ(sniffer.heard[1].start, assessed[4] + turnaround);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST_F(CsmaCa802154BackoffTest, AfterTheLastBusyAssessmentAFrameIsGivenUp) {
@@ -56,9 +56,9 @@ TEST_F(CsmaCa802154BackoffTest, AfterTheLastBusyAssessmentAFrameIsGivenUp) {
     jam(jammer, fifth + us(1));
     sender.send(broadcast_id, 50);
     air.run(fifth + us(-1));
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 0U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::channel_access_failure), 0U);
     air.run(fifth);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::channel_access_failure), 1U);
     EXPECT_EQ(sender.csma.queued_messages(), 0U);
 }
 
@@ -71,8 +71,8 @@ TEST_F(CsmaCa802154BackoffTest, TheFrameAfterOneGivenUpStartsAfresh) {
     sender.send(broadcast_id, 50);
     sender.send(broadcast_id, 50);
     air.run();
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::channel_access_failure), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::sent), 1U);
     EXPECT_EQ(sniffer.heard.at(1).start, cca * 10 + turnaround);
 }
 
@@ -115,7 +115,7 @@ TEST_F(CsmaCa802154BackoffTest, TwoThatDrawTheSameNumberSendAtOnce) {
     air.run();
     ASSERT_EQ(sniffer.heard.size(), 2U);
     EXPECT_EQ(sniffer.heard[0].start, sniffer.heard[1].start);
-    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::receiver_transmitting), 2U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameOutcome::receiver_transmitting), 2U);
 }
 
 TEST_F(CsmaCa802154BackoffTest, WhoDrawsTheLargerNumberHearsTheOther) {
@@ -128,8 +128,8 @@ TEST_F(CsmaCa802154BackoffTest, WhoDrawsTheLargerNumberHearsTheOther) {
     second.send(broadcast_id, 1);
     // 320 µs + 2976 µs on the air; the second device assesses the channel every 448 µs, five times.
     air.run();
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::channel_access_failure), 1U);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::channel_access_failure), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST_F(CsmaCa802154BackoffTest, AWaitIsInterruptedToAnswerAndBeginsAnew) {
@@ -147,7 +147,7 @@ TEST_F(CsmaCa802154BackoffTest, AWaitIsInterruptedToAnswerAndBeginsAnew) {
     ASSERT_EQ(sniffer.heard.size(), 4U);
     EXPECT_EQ(sniffer.heard[1].end, ack_end);
     EXPECT_EQ(sniffer.heard[2].start, ack_end + period + cca + turnaround);
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::acknowledged), 2U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::acknowledged), 2U);
 }
 
 // The channel becomes free within the 128 µs.

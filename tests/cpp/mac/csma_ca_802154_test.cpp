@@ -46,7 +46,7 @@ TEST_F(CsmaCa802154Test, AnExchangeTakesPlaceInTheInstantsOfTheStandard) {
     EXPECT_EQ(at_sender.heard[1].start, start + data_duration + flight + sifs + flight);
     EXPECT_EQ(at_sender.heard[1].end, at_sender.heard[1].start + ack_duration);
     EXPECT_EQ(receiver.received, std::vector{start + data_duration + flight});
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 TEST_F(CsmaCa802154Test, ABroadcastIsNotAcknowledged) {
@@ -57,7 +57,7 @@ TEST_F(CsmaCa802154Test, ABroadcastIsNotAcknowledged) {
     air.run();
     EXPECT_EQ(sniffer.heard.size(), 1U);
     EXPECT_EQ(receiver.received.size(), 1U);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST_F(CsmaCa802154Test, WithoutAcksUnicastsAreSentOnce) {
@@ -70,7 +70,7 @@ TEST_F(CsmaCa802154Test, WithoutAcksUnicastsAreSentOnce) {
     air.run();
     EXPECT_EQ(sniffer.heard.size(), 1U);
     EXPECT_EQ(receiver.received.size(), 1U);
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::sent), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::sent), 1U);
 }
 
 // Each device requests ACKs or does not, and answers requests.
@@ -81,12 +81,12 @@ TEST_F(CsmaCa802154Test, AFrameIsAcknowledgedIfItAsksForThat) {
     Device& other = add_device({30, 0, 0}, does_not_ask);
     asking.send(other.id(), 50);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 1U);
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::ack), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
     other.send(asking.id(), 50);
     air.run(SimTime::from_seconds(200));
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 1U);
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::sent), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::ack), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::sent), 1U);
     EXPECT_EQ(asking.received.size() + other.received.size(), 2U);
 }
 
@@ -96,8 +96,8 @@ TEST_F(CsmaCa802154Test, TheNextMessageHasAllRepetitions) {
     sender.send(stranger, 50);
     sender.send(stranger, 50);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 8U);
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::retry_limit), 2U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::unicast), 8U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::retry_limit), 2U);
 }
 
 TEST_F(CsmaCa802154Test, WhatComesWhileItTurnsToTransmitIsNotReceived) {
@@ -123,7 +123,7 @@ TEST_F(CsmaCa802154Test, WhatComesWhileItTurnsToAcknowledgeIsNotReceived) {
     air.at(us(5'000), [&] { jam(jammer, us(2'000)); });
     air.run();
     EXPECT_EQ(receiver.received.size(), 1U);
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::ack), 1U);
 }
 
 TEST_F(CsmaCa802154Test, TheLongestMessageFillsAFrameOf127Bytes) {
@@ -146,7 +146,7 @@ TEST_F(CsmaCa802154Test, ALongerMessageIsRefused) {
                   "bytes less "
                   "MAC, IPv4 and UDP headers)");
     }
-    EXPECT_EQ(sender.csma.message_fates().accepted(MessageKind::broadcast), 0U);
+    EXPECT_EQ(sender.csma.message_outcomes().accepted(MessageKind::broadcast), 0U);
 }
 
 TEST_F(CsmaCa802154Test, AFrameWithoutAckIsRepeatedThreeTimes) {
@@ -161,7 +161,7 @@ TEST_F(CsmaCa802154Test, AFrameWithoutAckIsRepeatedThreeTimes) {
         EXPECT_EQ(frame.start, expected);
         expected += data_duration + ack_wait + cca + turnaround;
     }
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::retry_limit), 1U);
 }
 
 // A sender that never waits long enough for an ACK.
@@ -173,10 +173,10 @@ TEST_F(CsmaCa802154Test, RepetitionsAreAcknowledgedButDeliveredOnce) {
     Device& receiver = add_device({30, 0, 0});
     sender.send(receiver.id(), 50);
     air.run();
-    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered), 4U);
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 4U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameOutcome::delivered), 4U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::ack), 4U);
     EXPECT_EQ(receiver.received.size(), 1U);
-    EXPECT_EQ(messages(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(messages(MessageKind::unicast, MessageOutcome::retry_limit), 1U);
 }
 
 // 1600 m apart they are below each other's sensitivity; in the middle they are 5 dB above it. With
@@ -191,8 +191,8 @@ TEST_F(CsmaCa802154Test, HiddenSendersCollide) {
     air.at(us(1'000), [&] { other.send(between.id(), 50); });
     air.run(us(4'300));
     EXPECT_EQ(between.received.size(), 0U);
-    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::interference), 1U);
-    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::receiver_locked), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameOutcome::interference), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameOutcome::receiver_locked), 1U);
 }
 
 TEST_F(CsmaCa802154Test, TheRadioIsDeafWhileItTurnsAround) {
@@ -202,8 +202,8 @@ TEST_F(CsmaCa802154Test, TheRadioIsDeafWhileItTurnsAround) {
     air.at(cca + us(1), [&] { jam(jammer, us(500)); });
     air.run();
     EXPECT_EQ(
-        air.frame_fates.counts_at(
-            sender.id(), FrameKind::broadcast)[static_cast<std::size_t>(FrameFate::receiver_transmitting)],
+        air.frame_outcomes.counts_at(
+            sender.id(), FrameKind::broadcast)[static_cast<std::size_t>(FrameOutcome::receiver_transmitting)],
         1U);
     EXPECT_TRUE(sender.received.empty());
 }
@@ -264,10 +264,10 @@ TEST_F(CsmaCa802154Test, AFullQueueDropsTheNewcomer) {
     Device& sender = add_device({0, 0, 0}, config);
     sender.send(broadcast_id, 1);
     sender.send(broadcast_id, 1);
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::queue_overflow), 1U);
     EXPECT_EQ(sender.csma.queued_messages(), 1U);
     air.run();
-    EXPECT_EQ(messages(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(messages(MessageKind::broadcast, MessageOutcome::sent), 1U);
     EXPECT_EQ(sender.csma.queued_messages(), 0U);
 }
 

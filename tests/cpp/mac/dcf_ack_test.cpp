@@ -100,8 +100,8 @@ TEST_F(DcfAck, AnAckThatHasBegunByTheTimeoutIsWaitedFor) {
     b = &air.add_station({22 * light_microsecond_m, 0, 0}, mac, test::radio_of_power(100));
     a->send(b->id(), 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::unicast), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 TEST_F(DcfAck, AnAckThatBeginsAfterTheTimeoutIsTooLate) {
@@ -148,8 +148,8 @@ TEST_F(DcfAck, ADuplicateIsAcknowledgedButNotDeliveredAgain) {
     a->send(b->id(), "once");
     a->send(b->id(), "twice");
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 14U);
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 14U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::unicast), 14U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::ack), 14U);
     EXPECT_EQ(b->texts(), (std::vector<std::string>{"once", "twice"}));
 }
 
@@ -161,7 +161,7 @@ TEST_F(DcfAck, AfterGivingUpTheNextMessageHasItsTurn) {
     air.run();
     EXPECT_EQ(b->texts(), std::vector<std::string>{"next"});
     EXPECT_EQ(given_up(), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 }  // namespace

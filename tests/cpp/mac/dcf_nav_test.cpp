@@ -56,7 +56,7 @@ TEST_F(HiddenResponder, TheNavKeepsTheThirdStationSilentUntilTheAckIsOver) {
     const SimTime data_end_at_c = data_duration + us(1);
     ASSERT_EQ(of_kind(*at_c, FrameKind::broadcast).size(), 1U);
     EXPECT_EQ(of_kind(*at_c, FrameKind::broadcast)[0].start, data_end_at_c + sifs + ack_duration + difs);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 TEST_F(HiddenResponder, TheNavCountsAsBusyForImmediateAccess) {

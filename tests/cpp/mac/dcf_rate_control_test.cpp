@@ -95,7 +95,7 @@ TEST_F(DcfRateControl, EachRetryHasTheModeThatTheFailuresSoFarLeadTo) {
     a->send(b->id(), 100);
     air.run();
     EXPECT_EQ(data.durations_us(), (std::vector<std::int64_t>{82, 82, 102, 102, 138, 138, 178}));
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::retry_limit), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::retry_limit), 1U);
 }
 
 // All attempts but the last at 24 Mbps, the last one at 6 Mbps.
@@ -128,7 +128,7 @@ TEST_F(DcfRateControl, DurationFieldsAndAcksFollowTheMode) {
     std::ranges::transform(ack_us, std::back_inserter(fields_us), [](std::int64_t ack) { return 10 + ack; });
     EXPECT_EQ(data.fields_us(), fields_us);
     EXPECT_EQ(b->received.size(), 21U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 21U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 21U);
 }
 
 // Both RTS are at 24 Mbps. The RTS of the eleventh frame announces a faster frame: 138 instead of
@@ -212,7 +212,7 @@ std::uint64_t delivered(const MacConfig& mac, double distance_m, SimTime duratio
         });
     }
     air.run(duration);
-    return air.message_count(MessageKind::unicast, MessageFate::acknowledged);
+    return air.message_count(MessageKind::unicast, MessageOutcome::acknowledged);
 }
 
 std::uint64_t best_of_fixed_rates(double distance_m, SimTime duration) {

@@ -75,7 +75,7 @@ TEST_P(RtsExchange, TakesPlaceInTheInstantsOfTheStandard) {
     }
     ASSERT_EQ(receiver.received.size(), 1U);
     EXPECT_EQ(receiver.received[0].time, at_receiver.heard[2].end);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -113,8 +113,8 @@ protected:
         a.send(broadcast ? broadcast_id : b.id(), payload_bytes);
         air.run();
         EXPECT_EQ(b.received.size(), 1U);
-        EXPECT_EQ(air.frame_fates.frames(FrameKind::cts), air.frame_fates.frames(FrameKind::rts));
-        return air.frame_fates.frames(FrameKind::rts);
+        EXPECT_EQ(air.frame_outcomes.frames(FrameKind::cts), air.frame_outcomes.frames(FrameKind::rts));
+        return air.frame_outcomes.frames(FrameKind::rts);
     }
 };
 

@@ -67,7 +67,7 @@ protected:
         });
     }
     std::uint64_t given_up() const {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
+        return air.message_count(MessageKind::unicast, MessageOutcome::retry_limit);
     }
     // The first message, at the same instant.
     void expect_given_up_at(SimTime time) {
@@ -156,8 +156,8 @@ TEST_F(RtsTest, WithoutCtsTheDataIsNotSent) {
     add(with_rts());
     station->send(stranger, 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 0U);
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 7U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::unicast), 0U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::rts), 7U);
     EXPECT_EQ(given_up(), 1U);
 }
 
@@ -188,8 +188,8 @@ TEST_F(RtsTest, ACtsThatHasBegunByTheTimeoutIsWaitedFor) {
     Station& b = air.add_station({22 * light_microsecond_m, 0, 0}, with_rts(), test::radio_of_power(100));
     a.send(b.id(), 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::rts), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 TEST_F(RtsTest, ACtsThatBeginsAfterTheTimeoutIsTooLate) {
@@ -197,7 +197,7 @@ TEST_F(RtsTest, ACtsThatBeginsAfterTheTimeoutIsTooLate) {
     Station& b = air.add_station({23 * light_microsecond_m, 0, 0}, with_rts(), test::radio_of_power(100));
     a.send(b.id(), 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), 0U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::unicast), 0U);
     EXPECT_EQ(given_up(), 1U);
 }
 
@@ -261,8 +261,8 @@ protected:
             peer_sends(attempt * i + rts_duration + sifs, FrameKind::cts, station->id());
         }
         air.run();
-        EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), rts);
-        EXPECT_EQ(air.frame_fates.frames(FrameKind::unicast), data);
+        EXPECT_EQ(air.frame_outcomes.frames(FrameKind::rts), rts);
+        EXPECT_EQ(air.frame_outcomes.frames(FrameKind::unicast), data);
         EXPECT_EQ(given_up(), 1U);
     }
 };
@@ -290,7 +290,7 @@ TEST_F(RtsRetries, TheNextMessageHasAllAttempts) {
     station->send(stranger, 100);
     station->send(stranger, 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::rts), 14U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::rts), 14U);
     EXPECT_EQ(given_up(), 2U);
 }
 
@@ -350,8 +350,8 @@ TEST_F(RtsTest, AnRtsAndItsCtsAreInTheLedger) {
     a.send(b.id(), 100);
     air.run();
     for (const FrameKind kind : {FrameKind::rts, FrameKind::cts}) {
-        EXPECT_EQ(air.frame_count(kind, FrameFate::delivered, false), 1U);
-        EXPECT_EQ(air.frame_count(kind, FrameFate::delivered, true), 1U);
+        EXPECT_EQ(air.frame_count(kind, FrameOutcome::delivered, false), 1U);
+        EXPECT_EQ(air.frame_count(kind, FrameOutcome::delivered, true), 1U);
     }
 }
 

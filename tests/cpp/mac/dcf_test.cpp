@@ -69,7 +69,7 @@ TEST_P(UnicastExchange, TakesPlaceInTheInstantsOfTheStandard) {
     EXPECT_EQ(at_sender.heard[1].end, ack_end + flight);
     ASSERT_EQ(receiver.received.size(), 1U);
     EXPECT_EQ(receiver.received[0].time, data_end + flight);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -120,7 +120,7 @@ TEST_F(DcfTest, AUnicastIsOnlyForItsReceiver) {
     a->send(b->id(), 100);
     air.run();
     EXPECT_TRUE(c.received.empty());
-    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered, true), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameOutcome::delivered, true), 1U);
 }
 
 TEST_F(DcfTest, ABroadcastIsForAll) {
@@ -137,16 +137,16 @@ TEST_F(DcfTest, ABroadcastIsNotAcknowledged) {
     add_pair(MacConfig());
     a->send(broadcast_id, 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::ack), 0U);
-    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::ack), 0U);
+    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST_F(DcfTest, ABroadcastThatNobodyHearsIsNotRepeated) {
     Station& alone = air.add_station({0, 0, 0});
     alone.send(broadcast_id, 100);
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::broadcast), 1U);
-    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::broadcast), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST_F(DcfTest, BroadcastsHaveTheirOwnBitrateIfTheyAreGivenOne) {
@@ -283,7 +283,7 @@ TEST_F(DcfTest, TheQueueHoldsAHundredAndTheOneInProgress) {
         a->send(b->id(), 100);
     }
     EXPECT_EQ(a->dcf.queued_messages(), 101U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::queue_overflow), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::queue_overflow), 1U);
     air.run();
     EXPECT_EQ(b->received.size(), 101U);
 }
@@ -293,10 +293,10 @@ TEST_F(DcfTest, AFrameWaitsInTheQueueUntilTheChannelIsGranted) {
     for (int i = 0; i < 101; ++i) {
         a->send(broadcast_id, 100);
     }
-    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
+    EXPECT_EQ(air.message_count(MessageKind::broadcast, MessageOutcome::queue_overflow), 1U);
 }
 
-TEST_F(DcfTest, QueuedMessagesCountsThoseWithoutAFate) {
+TEST_F(DcfTest, QueuedMessagesCountsThoseWithoutAnOutcome) {
     add_pair(MacConfig());
     EXPECT_EQ(a->dcf.queued_messages(), 0U);
     a->send(b->id(), 100);
@@ -326,7 +326,7 @@ TEST_F(DcfTest, AMessageThatIsTooLongIsAnErrorThatSaysHowLongItMayBe) {
                   "less IPv4 and "
                   "UDP headers)");
     }
-    EXPECT_EQ(a->dcf.message_fates().accepted(MessageKind::unicast), 0U);
+    EXPECT_EQ(a->dcf.message_outcomes().accepted(MessageKind::unicast), 0U);
 }
 
 TEST_F(DcfTest, OnePairSharesTheChannelBothWays) {
@@ -338,7 +338,7 @@ TEST_F(DcfTest, OnePairSharesTheChannelBothWays) {
     air.run();
     EXPECT_EQ(a->received.size(), 40U);
     EXPECT_EQ(b->received.size(), 40U);
-    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageFate::acknowledged), 80U);
+    EXPECT_EQ(air.message_count(MessageKind::unicast, MessageOutcome::acknowledged), 80U);
 }
 
 }  // namespace

@@ -31,8 +31,8 @@ protected:
         network.initialize();
         network.run_until(s(seconds));
     }
-    std::uint64_t message_count(MessageKind kind, MessageFate fate) const {
-        return network.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
+    std::uint64_t message_count(MessageKind kind, MessageOutcome outcome) const {
+        return network.message_outcomes().counts(kind)[static_cast<std::size_t>(outcome)];
     }
 
     Network network{MediumConfig(std::string(unit_disk_medium)), 1};
@@ -116,7 +116,7 @@ TEST_F(UnitDisk, AUnicastIsOnlyForItsReceiver) {
     run();
     EXPECT_TRUE(other.packets.empty());
     EXPECT_EQ(receiver.packet_texts(), std::vector<std::string>{"text"});
-    EXPECT_EQ(message_count(MessageKind::unicast, MessageFate::acknowledged), 1U);
+    EXPECT_EQ(message_count(MessageKind::unicast, MessageOutcome::acknowledged), 1U);
 }
 
 TEST_F(UnitDisk, AUnicastThatDoesNotReachIsOutOfRange) {
@@ -124,7 +124,7 @@ TEST_F(UnitDisk, AUnicastThatDoesNotReachIsOutOfRange) {
     add_node({1000, 0, 0});
     sender.on_initialize = [](Recorder& self) { self.send(1, "text"); };
     run();
-    EXPECT_EQ(message_count(MessageKind::unicast, MessageFate::out_of_range), 1U);
+    EXPECT_EQ(message_count(MessageKind::unicast, MessageOutcome::out_of_range), 1U);
 }
 
 TEST_F(UnitDisk, AnswersWithinAnInstantComeAfterTheDeliveriesThatWereDue) {
@@ -151,11 +151,11 @@ TEST_F(UnitDisk, KeepsBooks) {
     add_node({1000, 0, 0});
     sender.on_initialize = [](Recorder& self) { self.broadcast("text"); };
     run();
-    const auto counts = network.frame_fates().counts(FrameKind::broadcast, false);
-    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 2U);
-    EXPECT_EQ(counts[static_cast<std::size_t>(FrameFate::delivered)], 1U);
-    EXPECT_EQ(counts[static_cast<std::size_t>(FrameFate::below_sensitivity)], 1U);
-    EXPECT_EQ(message_count(MessageKind::broadcast, MessageFate::sent), 1U);
+    const auto counts = network.frame_outcomes().counts(FrameKind::broadcast, false);
+    EXPECT_EQ(network.frame_outcomes().copies(FrameKind::broadcast, false), 2U);
+    EXPECT_EQ(counts[static_cast<std::size_t>(FrameOutcome::delivered)], 1U);
+    EXPECT_EQ(counts[static_cast<std::size_t>(FrameOutcome::below_sensitivity)], 1U);
+    EXPECT_EQ(message_count(MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST_F(UnitDisk, NeedsARange) {
@@ -290,17 +290,18 @@ TEST_F(UnitDiskWithAccess, WhatDoesNotFitIntoTheQueueIsDropped) {
     };
     run();
     EXPECT_EQ(receiver.packets.size(), 2U);
-    const auto counts = network.message_fates().counts(MessageKind::broadcast);
-    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::queue_overflow)], 3U);
-    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::sent)], 2U);
+    const auto counts = network.message_outcomes().counts(MessageKind::broadcast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageOutcome::queue_overflow)], 3U);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageOutcome::sent)], 2U);
 }
 
 class UnitDiskWithAloha : public UnitDiskWithTime {
 protected:
     UnitDiskWithAloha() : UnitDiskWithTime("aloha") {}
 
-    std::uint64_t lost(FrameFate fate) const {
-        return network.frame_fates().counts(FrameKind::broadcast, false)[static_cast<std::size_t>(fate)];
+    std::uint64_t lost(FrameOutcome outcome) const {
+        return network.frame_outcomes().counts(FrameKind::broadcast,
+                                               false)[static_cast<std::size_t>(outcome)];
     }
 };
 
@@ -311,8 +312,8 @@ TEST_F(UnitDiskWithAloha, FramesThatOverlapAreLost) {
     add_node(900).on_initialize = send;
     run();
     EXPECT_TRUE(between.packets.empty());
-    EXPECT_EQ(lost(FrameFate::interference), 2U);
-    EXPECT_EQ(network.frame_fates().interferers_at(1), (std::map<NodeId, std::uint64_t>{{0, 1}, {2, 1}}));
+    EXPECT_EQ(lost(FrameOutcome::interference), 2U);
+    EXPECT_EQ(network.frame_outcomes().interferers_at(1), (std::map<NodeId, std::uint64_t>{{0, 1}, {2, 1}}));
 }
 
 TEST_F(UnitDiskWithAloha, ANodeThatSendsReceivesNothing) {
@@ -322,7 +323,7 @@ TEST_F(UnitDiskWithAloha, ANodeThatSendsReceivesNothing) {
     add_node(0).on_initialize = send;
     run();
     EXPECT_TRUE(first.packets.empty());
-    EXPECT_EQ(lost(FrameFate::receiver_transmitting), 2U);
+    EXPECT_EQ(lost(FrameOutcome::receiver_transmitting), 2U);
 }
 
 TEST_F(UnitDiskWithAloha, FramesOfOneSenderFollowEachOther) {
@@ -344,9 +345,9 @@ TEST_F(UnitDiskWithAloha, ALostUnicastIsSentAgainAfterARandomDelay) {
     add_node(900).on_initialize = send;
     run();
     EXPECT_EQ(between.packets.size(), 2U);
-    const auto counts = network.message_fates().counts(MessageKind::unicast);
-    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::acknowledged)], 2U);
-    EXPECT_GT(network.frame_fates().frames(FrameKind::unicast), 2U);
+    const auto counts = network.message_outcomes().counts(MessageKind::unicast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageOutcome::acknowledged)], 2U);
+    EXPECT_GT(network.frame_outcomes().frames(FrameKind::unicast), 2U);
 }
 
 MediumConfig scalar_with(std::string_view timing) {
@@ -371,8 +372,8 @@ protected:
         network.initialize();
         network.run_until(s(1));
     }
-    static std::uint64_t count(const Network& network, FrameKind kind, FrameFate fate) {
-        return network.frame_fates().counts(kind, false)[static_cast<std::size_t>(fate)];
+    static std::uint64_t count(const Network& network, FrameKind kind, FrameOutcome outcome) {
+        return network.frame_outcomes().counts(kind, false)[static_cast<std::size_t>(outcome)];
     }
     const std::string text = std::string(100, 'x');
 };
@@ -387,7 +388,7 @@ TEST_F(IdealRadios, PowerDecidesWhatArrives) {
         run(network);
         EXPECT_EQ(near.packets.size(), 1U) << timing;
         EXPECT_TRUE(far.packets.empty()) << timing;
-        EXPECT_EQ(count(network, FrameKind::broadcast, FrameFate::below_sensitivity), 1U) << timing;
+        EXPECT_EQ(count(network, FrameKind::broadcast, FrameOutcome::below_sensitivity), 1U) << timing;
     }
 }
 
@@ -410,7 +411,7 @@ TEST_F(IdealRadios, WithAlohaTheStrongerFrameSurvives) {
     run(network);
     ASSERT_EQ(between.packets.size(), 1U);
     EXPECT_EQ(between.packets[0].text.back(), '0');
-    EXPECT_EQ(count(network, FrameKind::broadcast, FrameFate::interference), 1U);
+    EXPECT_EQ(count(network, FrameKind::broadcast, FrameOutcome::interference), 1U);
 }
 
 TEST_F(IdealRadios, WhatNoiseDestroysIsSentAgain) {
@@ -426,9 +427,9 @@ TEST_F(IdealRadios, WhatNoiseDestroysIsSentAgain) {
     };
     run(network);
     EXPECT_EQ(receiver.packets.size(), 50U);
-    EXPECT_GT(count(network, FrameKind::unicast, FrameFate::noise), 0U);
-    EXPECT_EQ(network.frame_fates().frames(FrameKind::unicast),
-              50 + count(network, FrameKind::unicast, FrameFate::noise));
+    EXPECT_GT(count(network, FrameKind::unicast, FrameOutcome::noise), 0U);
+    EXPECT_EQ(network.frame_outcomes().frames(FrameKind::unicast),
+              50 + count(network, FrameKind::unicast, FrameOutcome::noise));
 }
 
 TEST_F(IdealRadios, AfterTheRetryLimitAMessageIsGivenUp) {
@@ -442,9 +443,9 @@ TEST_F(IdealRadios, AfterTheRetryLimitAMessageIsGivenUp) {
     test::add_recorder(network, config);
     sender.on_initialize = [this](Recorder& self) { self.send(1, text); };
     run(network);
-    EXPECT_EQ(network.frame_fates().frames(FrameKind::unicast), 7U);
-    const auto counts = network.message_fates().counts(MessageKind::unicast);
-    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::retry_limit)], 1U);
+    EXPECT_EQ(network.frame_outcomes().frames(FrameKind::unicast), 7U);
+    const auto counts = network.message_outcomes().counts(MessageKind::unicast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageOutcome::retry_limit)], 1U);
 }
 
 TEST_F(IdealRadios, EachChannelIsApart) {
@@ -456,7 +457,7 @@ TEST_F(IdealRadios, EachChannelIsApart) {
     sender.on_initialize = [this](Recorder& self) { self.broadcast(text); };
     run(network);
     EXPECT_TRUE(elsewhere.packets.empty());
-    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 0U);
+    EXPECT_EQ(network.frame_outcomes().copies(FrameKind::broadcast, false), 0U);
 }
 
 // With no noise and no interference, radios receive what the real MAC and medium deliver.

@@ -21,8 +21,8 @@ protected:
         Frame frame = to.frame_of(destination, text, 164, SimTime{});
         return to.add(frame);
     }
-    std::uint64_t booked(MessageKind kind, MessageFate fate) const {
-        return queue.message_fates().counts(kind)[static_cast<std::size_t>(fate)];
+    std::uint64_t booked(MessageKind kind, MessageOutcome outcome) const {
+        return queue.message_outcomes().counts(kind)[static_cast<std::size_t>(outcome)];
     }
 
     Payload text = std::make_shared<const std::string>("text");
@@ -60,7 +60,7 @@ TEST_F(TransmitQueueTest, AFrameStaysInProgressUntilItIsFinished) {
     queue.begin_next();
     queue.begin_next();
     EXPECT_EQ(queue.in_progress()->receiver, 3);
-    queue.finish(MessageFate::acknowledged);
+    queue.finish(MessageOutcome::acknowledged);
     EXPECT_FALSE(queue.is_in_progress());
     EXPECT_FALSE(queue.empty());
     queue.begin_next();
@@ -70,10 +70,10 @@ TEST_F(TransmitQueueTest, AFrameStaysInProgressUntilItIsFinished) {
 TEST_F(TransmitQueueTest, FinishedMessagesAreBooked) {
     add(3);
     queue.begin_next();
-    EXPECT_EQ(booked(MessageKind::unicast, MessageFate::queued), 1U);
-    queue.finish(MessageFate::retry_limit);
-    EXPECT_EQ(booked(MessageKind::unicast, MessageFate::retry_limit), 1U);
-    EXPECT_EQ(booked(MessageKind::unicast, MessageFate::queued), 0U);
+    EXPECT_EQ(booked(MessageKind::unicast, MessageOutcome::queued), 1U);
+    queue.finish(MessageOutcome::retry_limit);
+    EXPECT_EQ(booked(MessageKind::unicast, MessageOutcome::retry_limit), 1U);
+    EXPECT_EQ(booked(MessageKind::unicast, MessageOutcome::queued), 0U);
 }
 
 TEST_F(TransmitQueueTest, OverflowIsBooked) {
@@ -81,8 +81,8 @@ TEST_F(TransmitQueueTest, OverflowIsBooked) {
     add(broadcast_id);
     EXPECT_FALSE(add(broadcast_id));
     EXPECT_EQ(queue.size(), 2U);
-    EXPECT_EQ(queue.message_fates().accepted(MessageKind::broadcast), 3U);
-    EXPECT_EQ(booked(MessageKind::broadcast, MessageFate::queue_overflow), 1U);
+    EXPECT_EQ(queue.message_outcomes().accepted(MessageKind::broadcast), 3U);
+    EXPECT_EQ(booked(MessageKind::broadcast, MessageOutcome::queue_overflow), 1U);
 }
 
 TEST_F(TransmitQueueTest, WaitingFramesStayWhenANewOneIsDropped) {
@@ -99,7 +99,7 @@ TEST_F(TransmitQueueTest, HasRoomAgainWhenAWaitingFrameIsInProgress) {
     queue.begin_next();
     EXPECT_TRUE(add(5));
     EXPECT_FALSE(add(6));
-    queue.finish(MessageFate::acknowledged);
+    queue.finish(MessageOutcome::acknowledged);
     EXPECT_FALSE(add(7));  // two wait, and none is in progress
     queue.begin_next();
     EXPECT_TRUE(add(8));
@@ -115,7 +115,7 @@ TEST_F(TransmitQueueTest, OneThatBlocksDropsNothing) {
     EXPECT_TRUE(add_to(blocking, 6));
     EXPECT_FALSE(blocking.has_one_in_front());  // but two
     EXPECT_FALSE(blocking.begin_next());
-    blocking.finish(MessageFate::sent);
+    blocking.finish(MessageOutcome::sent);
     EXPECT_TRUE(blocking.begin_next());   // now all others fit in
     EXPECT_FALSE(blocking.begin_next());  // a retry
 }
@@ -137,7 +137,7 @@ TEST(TransmitQueue, MatchesAPlainQueueOfThatCapacity) {
                 waiting.push_back(receiver);
             }
         } else if (in_progress) {
-            queue.finish(MessageFate::acknowledged);
+            queue.finish(MessageOutcome::acknowledged);
             in_progress.reset();
         } else if (!waiting.empty()) {
             queue.begin_next();

@@ -44,7 +44,7 @@ void add(Counts& sums, const Counts& counts) {
 
 Ledger ledger_of(const Network& network) {
     Ledger ledger;
-    const FrameFates& frames = network.frame_fates();
+    const FrameOutcomes& frames = network.frame_outcomes();
     for (std::size_t i = 0; i < frame_kind_count; ++i) {
         const auto kind = static_cast<FrameKind>(i);
         ledger.counts.push_back(frames.frames(kind));
@@ -55,7 +55,7 @@ Ledger ledger_of(const Network& network) {
         }
     }
     for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
-        append(ledger.counts, network.message_fates().counts(kind));
+        append(ledger.counts, network.message_outcomes().counts(kind));
     }
     for (NodeId node = 0; node < network.node_count(); ++node) {
         ledger.interferers.push_back(frames.interferers_at(node));
@@ -66,7 +66,7 @@ Ledger ledger_of(const Network& network) {
 std::uint64_t frame_count(const Network& network) {
     std::uint64_t count = 0;
     for (std::size_t kind = 0; kind < frame_kind_count; ++kind) {
-        count += network.frame_fates().frames(static_cast<FrameKind>(kind));
+        count += network.frame_outcomes().frames(static_cast<FrameKind>(kind));
     }
     return count;
 }
@@ -195,53 +195,54 @@ TEST_P(NarrowbandScenarios, MatchThePlainModel) {
     expect_same_courses(GetParam(), 5, test::make_narrowband_scenario);
 }
 
-TEST(NarrowbandScenario, CoversEveryFate) {
-    FrameFates::Counts frames{};
-    MessageFates::Counts messages{};
+TEST(NarrowbandScenario, CoversEveryOutcome) {
+    FrameOutcomes::Counts frames{};
+    MessageOutcomes::Counts messages{};
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const RandomScenario scenario = test::make_narrowband_scenario(seed);
         ScenarioRun run(scenario);
         run.network.run_until(scenario.talk.until);
         for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
-            add(frames, run.network.frame_fates().counts(kind, false));
+            add(frames, run.network.frame_outcomes().counts(kind, false));
         }
         for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
-            add(messages, run.network.message_fates().counts(kind));
+            add(messages, run.network.message_outcomes().counts(kind));
         }
     }
-    for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
-        EXPECT_GE(frames[fate], 30U) << frame_fate_names[fate];
+    for (std::size_t outcome = 0; outcome < frame_outcome_count; ++outcome) {
+        EXPECT_GE(frames[outcome], 30U) << frame_outcome_names[outcome];
     }
-    for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
-        if (static_cast<MessageFate>(fate) != MessageFate::out_of_range) {  // of perfect channels only
-            EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];
+    for (std::size_t outcome = 0; outcome < message_outcome_count; ++outcome) {
+        if (static_cast<MessageOutcome>(outcome) !=
+            MessageOutcome::out_of_range) {  // of perfect channels only
+            EXPECT_GE(messages[outcome], 30U) << message_outcome_names[outcome];
         }
     }
 }
 
-TEST(RandomScenario, CoversEveryFate) {
-    FrameFates::Counts frames{};
-    MessageFates::Counts messages{};
+TEST(RandomScenario, CoversEveryOutcome) {
+    FrameOutcomes::Counts frames{};
+    MessageOutcomes::Counts messages{};
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const RandomScenario scenario = test::make_random_scenario(seed);
         ScenarioRun run(scenario);
         run.network.run_until(SimTime::from_ps(scenario.talk.until.ps() / 2));
         for (const FrameKind kind : {FrameKind::broadcast, FrameKind::unicast, FrameKind::ack}) {
-            add(frames, run.network.frame_fates().counts(kind, false));
-            add(frames, run.network.frame_fates().counts(kind, true));
+            add(frames, run.network.frame_outcomes().counts(kind, false));
+            add(frames, run.network.frame_outcomes().counts(kind, true));
         }
         for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
-            add(messages, run.network.message_fates().counts(kind));
+            add(messages, run.network.message_outcomes().counts(kind));
         }
     }
-    for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
-        EXPECT_GE(frames[fate], 30U) << frame_fate_names[fate];
+    for (std::size_t outcome = 0; outcome < frame_outcome_count; ++outcome) {
+        EXPECT_GE(frames[outcome], 30U) << frame_outcome_names[outcome];
     }
-    for (std::size_t fate = 0; fate < message_fate_count; ++fate) {
-        // Fates of perfect channels and of 802.15.4 only.
-        if (static_cast<MessageFate>(fate) != MessageFate::out_of_range &&
-            static_cast<MessageFate>(fate) != MessageFate::channel_access_failure) {
-            EXPECT_GE(messages[fate], 30U) << message_fate_names[fate];
+    for (std::size_t outcome = 0; outcome < message_outcome_count; ++outcome) {
+        // Outcomes of perfect channels and of 802.15.4 only.
+        if (static_cast<MessageOutcome>(outcome) != MessageOutcome::out_of_range &&
+            static_cast<MessageOutcome>(outcome) != MessageOutcome::channel_access_failure) {
+            EXPECT_GE(messages[outcome], 30U) << message_outcome_names[outcome];
         }
     }
 }

@@ -97,7 +97,7 @@ TEST(Medium, AFrameOfAnOverlappingChannelMakesTheChannelBusyAndIsNotReceived) {
     });
     air.run();
     EXPECT_FALSE(receiver.radio.is_channel_busy());
-    EXPECT_EQ(air.frame_fates.copies(FrameKind::broadcast, false), 0U);
+    EXPECT_EQ(air.frame_outcomes.copies(FrameKind::broadcast, false), 0U);
 }
 
 TEST(Medium, AFrameOfAnOverlappingChannelIsInterference) {
@@ -108,8 +108,8 @@ TEST(Medium, AFrameOfAnOverlappingChannelIsInterference) {
     air.at(us(10), [&] { sender.send(us(100)); });
     air.at(us(50), [&] { disturber.send(us(20)); });
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::interference), 1U);
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver.id()), (std::map<NodeId, std::uint64_t>{{2, 1}}));
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::interference), 1U);
+    EXPECT_EQ(air.frame_outcomes.interferers_at(receiver.id()), (std::map<NodeId, std::uint64_t>{{2, 1}}));
 }
 
 TEST(Medium, AtDistanceZeroTheFrameArrivesAtOnceWithFullPower) {
@@ -144,10 +144,10 @@ TEST(Medium, MakesACopyForEveryOtherRadioOfTheBand) {
     air.add_radio({10, 0, 0}, elsewhere);
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::broadcast), 1U);
-    EXPECT_EQ(air.frame_fates.copies(FrameKind::broadcast, false), 2U);
-    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::delivered), 1U);
-    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::below_sensitivity), 1U);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::broadcast), 1U);
+    EXPECT_EQ(air.frame_outcomes.copies(FrameKind::broadcast, false), 2U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameOutcome::delivered), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameOutcome::below_sensitivity), 1U);
 }
 
 TEST(Medium, SeparatesAddresseesFromOverhearers) {
@@ -157,8 +157,8 @@ TEST(Medium, SeparatesAddresseesFromOverhearers) {
     air.add_radio({20, 0, 0});
     air.at(us(10), [&] { sender.send(us(100), FrameLabel{FrameKind::unicast, addressee.id()}); });
     air.run();
-    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered, false), 1U);
-    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameFate::delivered, true), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameOutcome::delivered, false), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::unicast, FrameOutcome::delivered, true), 1U);
 }
 
 TEST(Medium, ACopyIsInTheAirUntilItEnds) {
@@ -167,9 +167,9 @@ TEST(Medium, ACopyIsInTheAirUntilItEnds) {
     air.add_radio({10, 0, 0});
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run(us(60));
-    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::in_air), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameOutcome::in_air), 1U);
     air.run();
-    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::in_air), 0U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameOutcome::in_air), 0U);
 }
 
 TEST(Medium, IrrelevantReceiversCostNoEvent) {
@@ -238,7 +238,7 @@ TEST(Medium, DropsTransmissionsThatCannotMatter) {
             most = std::max(most, air.medium.remembered_count());
         }
     }
-    EXPECT_EQ(air.frame_fates.frames(FrameKind::broadcast), 3U * rounds);
+    EXPECT_EQ(air.frame_outcomes.frames(FrameKind::broadcast), 3U * rounds);
     EXPECT_LE(most, 4U);
 }
 
@@ -256,8 +256,8 @@ TEST(Medium, KeepsAFrameWhileItInterferes) {
         air.at(us(105 + 15 * i), [&] { elsewhere.send(us(10)); });
     }
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::interference), 1U);
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver.id()).begin()->first, hidden.id());
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::interference), 1U);
+    EXPECT_EQ(air.frame_outcomes.interferers_at(receiver.id()).begin()->first, hidden.id());
 }
 
 }  // namespace

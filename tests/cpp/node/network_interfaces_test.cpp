@@ -40,7 +40,7 @@ TEST(Network, NodesOfBothInterfacesNeitherHearNorDisturbEachOther) {
     EXPECT_EQ(other_station.packet_texts(), std::vector<std::string>(20, "node"));
     EXPECT_EQ(other_sensor.packet_texts(), std::vector<std::string>(20, "sensor"));
     EXPECT_TRUE(station.packets.empty() && sensor.packets.empty());
-    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false),
+    EXPECT_EQ(network.frame_outcomes().copies(FrameKind::broadcast, false),
               40U);  // only those in the sender's band
 }
 
@@ -51,8 +51,8 @@ TEST(Network, AMessageToANodeOfAnotherBandIsGivenUp) {
     sensor.on_initialize = [](Recorder& self) { self.send(1, "anybody there?"); };
     network.initialize();
     network.run_until(s(1));
-    EXPECT_EQ(network.message_fates().counts(
-                  MessageKind::unicast)[static_cast<std::size_t>(MessageFate::retry_limit)],
+    EXPECT_EQ(network.message_outcomes().counts(
+                  MessageKind::unicast)[static_cast<std::size_t>(MessageOutcome::retry_limit)],
               1U);
 }
 
@@ -83,11 +83,11 @@ TEST(Network, ANodeWithTwoInterfacesHearsBothChannelsAndSendsOnTheOneItIsTold) {
     network.run_until(s(1));
     EXPECT_EQ(low.packet_texts(), std::vector<std::string>{"heard from above"});
     EXPECT_EQ(high.packet_texts(), std::vector<std::string>{"heard from below"});
-    EXPECT_EQ(network.message_fates().counts(
-                  MessageKind::unicast)[static_cast<std::size_t>(MessageFate::acknowledged)],
+    EXPECT_EQ(network.message_outcomes().counts(
+                  MessageKind::unicast)[static_cast<std::size_t>(MessageOutcome::acknowledged)],
               2U);
     // The sender's other interface is not involved.
-    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), 2U);
+    EXPECT_EQ(network.frame_outcomes().copies(FrameKind::broadcast, false), 2U);
 }
 
 TEST(Network, EachInterfaceTellsWhatBecameOfItsMessages) {
@@ -101,16 +101,16 @@ TEST(Network, EachInterfaceTellsWhatBecameOfItsMessages) {
     };
     network.initialize();
     network.run_until(s(1));
-    const auto count_of = [&network](std::size_t interface, MessageKind kind, MessageFate fate) {
-        return network.node(0).interfaces()[interface]->message_fates().counts(
-            kind)[static_cast<std::size_t>(fate)];
+    const auto count_of = [&network](std::size_t interface, MessageKind kind, MessageOutcome outcome) {
+        return network.node(0).interfaces()[interface]->message_outcomes().counts(
+            kind)[static_cast<std::size_t>(outcome)];
     };
-    EXPECT_EQ(count_of(0, MessageKind::unicast, MessageFate::acknowledged), 1U);
-    EXPECT_EQ(count_of(0, MessageKind::unicast, MessageFate::retry_limit), 0U);
-    EXPECT_EQ(count_of(0, MessageKind::broadcast, MessageFate::sent), 0U);
-    EXPECT_EQ(count_of(1, MessageKind::unicast, MessageFate::acknowledged), 0U);
-    EXPECT_EQ(count_of(1, MessageKind::unicast, MessageFate::retry_limit), 1U);
-    EXPECT_EQ(count_of(1, MessageKind::broadcast, MessageFate::sent), 1U);
+    EXPECT_EQ(count_of(0, MessageKind::unicast, MessageOutcome::acknowledged), 1U);
+    EXPECT_EQ(count_of(0, MessageKind::unicast, MessageOutcome::retry_limit), 0U);
+    EXPECT_EQ(count_of(0, MessageKind::broadcast, MessageOutcome::sent), 0U);
+    EXPECT_EQ(count_of(1, MessageKind::unicast, MessageOutcome::acknowledged), 0U);
+    EXPECT_EQ(count_of(1, MessageKind::unicast, MessageOutcome::retry_limit), 1U);
+    EXPECT_EQ(count_of(1, MessageKind::broadcast, MessageOutcome::sent), 1U);
 }
 
 TEST(Network, AnInterfaceThatIsNotThereCannotSend) {

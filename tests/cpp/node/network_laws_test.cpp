@@ -48,26 +48,26 @@ protected:
     static void expect_balance(const Network& network) {
         for (const FrameKind kind : all_frame_kinds) {
             for (const bool overheard : {false, true}) {
-                EXPECT_EQ(sum_of(network.frame_fates().counts(kind, overheard)),
-                          network.frame_fates().copies(kind, overheard));
+                EXPECT_EQ(sum_of(network.frame_outcomes().counts(kind, overheard)),
+                          network.frame_outcomes().copies(kind, overheard));
             }
         }
         std::uint64_t census = 0;
         for (NodeId id = 0; id < network.node_count(); ++id) {
             for (const auto& interface : network.node(id).interfaces()) {
-                expect_balance(interface->message_fates(), interface->queued_messages());
+                expect_balance(interface->message_outcomes(), interface->queued_messages());
                 census += interface->queued_messages();
             }
         }
-        expect_balance(network.message_fates(), census);
+        expect_balance(network.message_outcomes(), census);
     }
     // For one interface, or for all.
-    static void expect_balance(const auto& message_fates, std::uint64_t census) {
+    static void expect_balance(const auto& message_outcomes, std::uint64_t census) {
         std::uint64_t queued = 0;
         for (const MessageKind kind : both_message_kinds) {
-            const auto counts = message_fates.counts(kind);
-            EXPECT_EQ(sum_of(counts), message_fates.accepted(kind));
-            queued += counts[static_cast<std::size_t>(MessageFate::queued)];
+            const auto counts = message_outcomes.counts(kind);
+            EXPECT_EQ(sum_of(counts), message_outcomes.accepted(kind));
+            queued += counts[static_cast<std::size_t>(MessageOutcome::queued)];
         }
         EXPECT_EQ(queued, census);
     }
@@ -77,7 +77,7 @@ protected:
             std::uint64_t accepted = 0;
             for (const auto& interface : network.node(id).interfaces()) {
                 for (const MessageKind kind : both_message_kinds) {
-                    accepted += interface->message_fates().accepted(kind);
+                    accepted += interface->message_outcomes().accepted(kind);
                 }
             }
             EXPECT_EQ(accepted, dynamic_cast<const Talker&>(*network.node(id).protocol()).sent());
@@ -86,16 +86,16 @@ protected:
     // Outcomes at the receivers, without those that are only kept as sums.
     static void expect_nodes_add_up(const Network& network) {
         for (const FrameKind kind : all_frame_kinds) {
-            FrameFates::Counts sums{};
+            FrameOutcomes::Counts sums{};
             for (const bool overheard : {false, true}) {
-                const auto counts = network.frame_fates().counts(kind, overheard);
+                const auto counts = network.frame_outcomes().counts(kind, overheard);
                 std::transform(sums.begin(), sums.end(), counts.begin(), sums.begin(), std::plus<>());
             }
-            sums[static_cast<std::size_t>(FrameFate::below_sensitivity)] = 0;
-            sums[static_cast<std::size_t>(FrameFate::in_air)] = 0;
-            FrameFates::Counts at_nodes{};
+            sums[static_cast<std::size_t>(FrameOutcome::below_sensitivity)] = 0;
+            sums[static_cast<std::size_t>(FrameOutcome::in_air)] = 0;
+            FrameOutcomes::Counts at_nodes{};
             for (NodeId id = 0; id < network.node_count(); ++id) {
-                const auto counts = network.frame_fates().counts_at(id, kind);
+                const auto counts = network.frame_outcomes().counts_at(id, kind);
                 std::transform(at_nodes.begin(), at_nodes.end(), counts.begin(), at_nodes.begin(),
                                std::plus<>());
             }
@@ -123,14 +123,15 @@ TEST_P(Balance, NothingIsLeftWhenTheAirIsDrained) {
         expect_balance(run.network);
         for (const FrameKind kind : all_frame_kinds) {
             for (const bool overheard : {false, true}) {
-                EXPECT_EQ(run.network.frame_fates().counts(
-                              kind, overheard)[static_cast<std::size_t>(FrameFate::in_air)],
+                EXPECT_EQ(run.network.frame_outcomes().counts(
+                              kind, overheard)[static_cast<std::size_t>(FrameOutcome::in_air)],
                           0U);
             }
         }
         for (const MessageKind kind : both_message_kinds) {
-            EXPECT_EQ(run.network.message_fates().counts(kind)[static_cast<std::size_t>(MessageFate::queued)],
-                      0U);
+            EXPECT_EQ(
+                run.network.message_outcomes().counts(kind)[static_cast<std::size_t>(MessageOutcome::queued)],
+                0U);
         }
     }
 }
@@ -139,13 +140,14 @@ TEST_P(Balance, AFrameOnTheAirIsAMessageOrAnAnswer) {
     const RandomScenario scenario = test::make_random_scenario(GetParam());
     ScenarioRun run(scenario);
     run.network.run_until(long_after(scenario));
-    const FrameFates& frames = run.network.frame_fates();
-    const auto broadcasts = run.network.message_fates().counts(MessageKind::broadcast);
-    EXPECT_EQ(frames.frames(FrameKind::broadcast), broadcasts[static_cast<std::size_t>(MessageFate::sent)]);
+    const FrameOutcomes& frames = run.network.frame_outcomes();
+    const auto broadcasts = run.network.message_outcomes().counts(MessageKind::broadcast);
+    EXPECT_EQ(frames.frames(FrameKind::broadcast),
+              broadcasts[static_cast<std::size_t>(MessageOutcome::sent)]);
     const auto unicasts = frames.counts(FrameKind::unicast, false);
-    EXPECT_EQ(frames.frames(FrameKind::ack), unicasts[static_cast<std::size_t>(FrameFate::delivered)]);
+    EXPECT_EQ(frames.frames(FrameKind::ack), unicasts[static_cast<std::size_t>(FrameOutcome::delivered)]);
     const auto requests = frames.counts(FrameKind::rts, false);
-    EXPECT_LE(frames.frames(FrameKind::cts), requests[static_cast<std::size_t>(FrameFate::delivered)]);
+    EXPECT_LE(frames.frames(FrameKind::cts), requests[static_cast<std::size_t>(FrameOutcome::delivered)]);
 }
 
 TEST(RandomScenario, AsksAndPermitsOften) {
@@ -155,8 +157,8 @@ TEST(RandomScenario, AsksAndPermitsOften) {
         const RandomScenario scenario = test::make_random_scenario(seed);
         ScenarioRun run(scenario);
         run.network.run_until(long_after(scenario));
-        requests += run.network.frame_fates().frames(FrameKind::rts);
-        permissions += run.network.frame_fates().frames(FrameKind::cts);
+        requests += run.network.frame_outcomes().frames(FrameKind::rts);
+        permissions += run.network.frame_outcomes().frames(FrameKind::cts);
     }
     EXPECT_GE(requests, 1000U);
     EXPECT_GE(permissions, 300U);

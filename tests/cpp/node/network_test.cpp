@@ -173,8 +173,8 @@ TEST(Network, ANodeWithoutAProtocolIsARadioThatListens) {
     network.initialize();
     network.run_until(s(1));
     network.finish();
-    const auto counts = network.message_fates().counts(MessageKind::unicast);
-    EXPECT_EQ(counts[static_cast<std::size_t>(MessageFate::acknowledged)], 1U);
+    const auto counts = network.message_outcomes().counts(MessageKind::unicast);
+    EXPECT_EQ(counts[static_cast<std::size_t>(MessageOutcome::acknowledged)], 1U);
 }
 
 TEST(Network, AnExceptionOfAProtocolEndsRunUntil) {

@@ -42,7 +42,7 @@ TEST_P(OperationModes, AStationHearsWhatItsOwnModeHas) {
     sender.on_initialize = [](Recorder& self) { self.broadcast("text"); };
     run(network);
     EXPECT_EQ(receiver.packets.size(), GetParam().is_heard ? 1U : 0U);
-    EXPECT_EQ(network.frame_fates().copies(FrameKind::broadcast, false), GetParam().is_heard ? 1U : 0U);
+    EXPECT_EQ(network.frame_outcomes().copies(FrameKind::broadcast, false), GetParam().is_heard ? 1U : 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, OperationModes,
@@ -66,8 +66,8 @@ TEST(Network, AMessageInAModeThatTheAddresseeHasNotIsGivenUp) {
     test::add_recorder(network, station("b", {10, 0, 0}));
     sender.on_initialize = [](Recorder& self) { self.send(1, "text"); };
     run(network);
-    EXPECT_EQ(network.message_fates().counts(
-                  MessageKind::unicast)[static_cast<std::size_t>(MessageFate::retry_limit)],
+    EXPECT_EQ(network.message_outcomes().counts(
+                  MessageKind::unicast)[static_cast<std::size_t>(MessageOutcome::retry_limit)],
               1U);
 }
 
@@ -96,10 +96,10 @@ TEST(Network, AFrameThatAStationCannotDecodeDisturbsWhatItReceives) {
     sender.on_initialize = [](Recorder& self) { self.node.schedule_timer("send", SimTime::from_us(1000)); };
     sender.on_timer = [](Recorder& self, const std::string&) { self.broadcast("2"); };
     run(network);
-    EXPECT_EQ(network.frame_fates().counts_at(
-                  1, FrameKind::broadcast)[static_cast<std::size_t>(FrameFate::interference)],
+    EXPECT_EQ(network.frame_outcomes().counts_at(
+                  1, FrameKind::broadcast)[static_cast<std::size_t>(FrameOutcome::interference)],
               1U);
-    EXPECT_EQ(network.frame_fates().interferers_at(1), (std::map<NodeId, std::uint64_t>{{0, 1}}));
+    EXPECT_EQ(network.frame_outcomes().interferers_at(1), (std::map<NodeId, std::uint64_t>{{0, 1}}));
 }
 
 }  // namespace

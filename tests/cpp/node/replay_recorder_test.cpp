@@ -39,7 +39,7 @@ std::vector<Value> values(const ReplayChunk& chunk, const std::string& table, co
     return {};
 }
 
-constexpr int below_sensitivity = static_cast<int>(FrameFate::below_sensitivity);
+constexpr int below_sensitivity = static_cast<int>(FrameOutcome::below_sensitivity);
 
 // {(receiver, outcome): receptions}, from the changes. Those below the sensitivity are left out: the
 // network counts them per frame.
@@ -88,10 +88,10 @@ TEST_P(RecordedScenario, HasTheReceptionsOfTheLedgerAndIsTheSameRun) {
     Counts expected;
     for (NodeId id = 0; id < run.network.node_count(); ++id) {
         for (std::size_t kind = 0; kind < frame_kind_count; ++kind) {
-            const auto counts = run.network.frame_fates().counts_at(id, static_cast<FrameKind>(kind));
-            for (std::size_t fate = 0; fate < frame_fate_count; ++fate) {
-                if (counts[fate] > 0) {
-                    expected[{static_cast<std::uint32_t>(id), static_cast<int>(fate)}] += counts[fate];
+            const auto counts = run.network.frame_outcomes().counts_at(id, static_cast<FrameKind>(kind));
+            for (std::size_t outcome = 0; outcome < frame_outcome_count; ++outcome) {
+                if (counts[outcome] > 0) {
+                    expected[{static_cast<std::uint32_t>(id), static_cast<int>(outcome)}] += counts[outcome];
                 }
             }
         }
@@ -100,11 +100,12 @@ TEST_P(RecordedScenario, HasTheReceptionsOfTheLedgerAndIsTheSameRun) {
     EXPECT_EQ(counts_of(chunks), expected);
     Counts told;
     for (const ReplayChunk& chunk : chunks) {
-        for (const ReplayChunk::Outcome& outcome : chunk.outcomes) {
-            if (outcome.fate == FrameFate::below_sensitivity) {
+        for (const ReplayChunk::OutcomeCount& of_node : chunk.outcomes) {
+            if (of_node.outcome == FrameOutcome::below_sensitivity) {
                 continue;
             }
-            told[{static_cast<std::uint32_t>(outcome.node), static_cast<int>(outcome.fate)}] += outcome.count;
+            told[{static_cast<std::uint32_t>(of_node.node), static_cast<int>(of_node.outcome)}] +=
+                of_node.count;
         }
     }
     EXPECT_EQ(told, expected);

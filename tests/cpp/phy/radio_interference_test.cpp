@@ -28,15 +28,16 @@ protected:
         one = &add_sender(strong_w / 5);
         other = &add_sender(strong_w / 5);
     }
-    FrameFate fate() {
+    FrameOutcome outcome() {
         air.run();
-        for (const FrameFate fate : {FrameFate::delivered, FrameFate::interference, FrameFate::noise}) {
-            if (air.frame_fates.counts_at(receiver->id(),
-                                          FrameKind::broadcast)[static_cast<std::size_t>(fate)] == 1) {
-                return fate;
+        for (const FrameOutcome outcome :
+             {FrameOutcome::delivered, FrameOutcome::interference, FrameOutcome::noise}) {
+            if (air.frame_outcomes.counts_at(receiver->id(),
+                                             FrameKind::broadcast)[static_cast<std::size_t>(outcome)] == 1) {
+                return outcome;
             }
         }
-        return FrameFate::in_air;
+        return FrameOutcome::in_air;
     }
 
     BareRadio* receiver = nullptr;
@@ -46,38 +47,38 @@ protected:
 
 TEST_F(PartialOverlap, OneInterfererIsBearable) {
     arrives(*one, us(150), us(100));
-    EXPECT_EQ(fate(), FrameFate::delivered);
+    EXPECT_EQ(outcome(), FrameOutcome::delivered);
 }
 
 TEST_F(PartialOverlap, TwoAtOnceAreNot) {
     arrives(*one, us(120), us(50));
     arrives(*other, us(150), us(50));
-    EXPECT_EQ(fate(), FrameFate::interference);
+    EXPECT_EQ(outcome(), FrameOutcome::interference);
 }
 
 TEST_F(PartialOverlap, OnePicosecondOfBothIsEnough) {
     arrives(*one, us(120), us(30) + SimTime::from_ps(1));
     arrives(*other, us(150), us(30));
-    EXPECT_EQ(fate(), FrameFate::interference);
+    EXPECT_EQ(outcome(), FrameOutcome::interference);
 }
 
 TEST_F(PartialOverlap, OneAfterTheOtherIsBearable) {
     arrives(*one, us(120), us(30));
     arrives(*other, us(150), us(30));
-    EXPECT_EQ(fate(), FrameFate::delivered);
+    EXPECT_EQ(outcome(), FrameOutcome::delivered);
 }
 
 TEST_F(PartialOverlap, BothAtOnceAfterTheFrameAreNoMatter) {
     arrives(*one, us(180), us(100));
     arrives(*other, us(200), us(100));
-    EXPECT_EQ(fate(), FrameFate::delivered);
+    EXPECT_EQ(outcome(), FrameOutcome::delivered);
 }
 
 TEST_F(PartialOverlap, BothAreNamed) {
     arrives(*one, us(120), us(50));
     arrives(*other, us(150), us(50));
     air.run();
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver->id()),
+    EXPECT_EQ(air.frame_outcomes.interferers_at(receiver->id()),
               (std::map<NodeId, std::uint64_t>{{one->id(), 1}, {other->id(), 1}}));
 }
 
@@ -86,7 +87,7 @@ TEST_F(PartialOverlap, OnlyThoseOfTheWorstMomentAreNamed) {
     arrives(*one, us(120), us(20));
     arrives(loud, us(150), us(20));
     air.run();
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver->id()),
+    EXPECT_EQ(air.frame_outcomes.interferers_at(receiver->id()),
               (std::map<NodeId, std::uint64_t>{{loud.id(), 1}}));
 }
 
@@ -95,7 +96,7 @@ TEST_F(PartialOverlap, ASenderOfTwoFramesIsNamedOnce) {
     arrives(loud, us(120), us(20));
     arrives(loud, us(150), us(20));
     air.run();
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver->id()),
+    EXPECT_EQ(air.frame_outcomes.interferers_at(receiver->id()),
               (std::map<NodeId, std::uint64_t>{{loud.id(), 1}}));
 }
 
@@ -116,19 +117,19 @@ protected:
 TEST_F(TouchingFrames, EndingAsTheFrameStartsIsNoOverlap) {
     arrives(*hidden, us(50), us(50));
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameOutcome::delivered), 1U);
 }
 
 TEST_F(TouchingFrames, StartingAsTheFrameEndsIsNoOverlap) {
     arrives(*hidden, us(200), us(50));
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameOutcome::delivered), 1U);
 }
 
 TEST_F(TouchingFrames, APicosecondMoreIsOne) {
     arrives(*hidden, us(50), us(50) + SimTime::from_ps(1));
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameFate::interference), 1U);
+    EXPECT_EQ(air.broadcast_count_at(*receiver, FrameOutcome::interference), 1U);
 }
 
 // A weak interferer, with an SNIR of 5.

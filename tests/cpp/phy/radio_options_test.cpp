@@ -41,7 +41,7 @@ protected:
         air.at(start - us(1), [&sender, duration] { sender.send(duration); });
         return sender.id();
     }
-    std::uint64_t count(FrameFate fate) { return air.broadcast_count_at(receiver(), fate); }
+    std::uint64_t count(FrameOutcome outcome) { return air.broadcast_count_at(receiver(), outcome); }
 
     RadioConfig config;
     Air air;
@@ -92,7 +92,7 @@ TEST_F(RadioWithPreambleDetection, TheMinimumPowerIsNeeded) {
     config.preamble_minimum_power_w = 1.001 * strong_w;
     arrives(strong_w, us(100));
     air.run();
-    EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
+    EXPECT_EQ(count(FrameOutcome::preamble_undetected), 1U);
     EXPECT_TRUE(receiver().log.events.empty());
 }
 
@@ -100,7 +100,7 @@ TEST_F(RadioWithPreambleDetection, TheThresholdIsNeededOverOthers) {
     arrives(2.4 * strong_w, us(100));
     arrives(strong_w, us(101));
     air.run();
-    EXPECT_EQ(count(FrameFate::preamble_undetected), 2U);
+    EXPECT_EQ(count(FrameOutcome::preamble_undetected), 2U);
     EXPECT_TRUE(receiver().log.events.empty());
 }
 
@@ -109,7 +109,7 @@ TEST_F(RadioWithPreambleDetection, OfTwoAtOnceTheStrongerIsReceived) {
     const NodeId strong = arrives(100 * strong_w, us(103));
     air.run();
     EXPECT_EQ(receiver().log.received_from, std::vector{strong});
-    EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
+    EXPECT_EQ(count(FrameOutcome::preamble_undetected), 1U);
 }
 
 TEST_F(RadioWithPreambleDetection, OfTwoOfEqualPowerTheFirstIsDetected) {
@@ -117,8 +117,8 @@ TEST_F(RadioWithPreambleDetection, OfTwoOfEqualPowerTheFirstIsDetected) {
     arrives(strong_w, us(100), us(10));
     arrives(strong_w, us(101), us(10));
     air.run();
-    EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
-    EXPECT_EQ(count(FrameFate::preamble_undetected), 0U);
+    EXPECT_EQ(count(FrameOutcome::receiver_locked), 1U);
+    EXPECT_EQ(count(FrameOutcome::preamble_undetected), 0U);
 }
 
 TEST_F(RadioWithPreambleDetection, WhatIsStillListenedToAtADetectionIsLost) {
@@ -126,7 +126,7 @@ TEST_F(RadioWithPreambleDetection, WhatIsStillListenedToAtADetectionIsLost) {
     arrives(strong_w, us(103));
     air.run();
     EXPECT_EQ(receiver().log.received_from, std::vector{strong});
-    EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
+    EXPECT_EQ(count(FrameOutcome::receiver_locked), 1U);
 }
 
 // The SNIR at the end of the detection counts.
@@ -135,14 +135,14 @@ TEST_F(RadioWithPreambleDetection, WhatEndsDuringItDoesNoHarm) {
     arrives(3 * strong_w, us(100));
     arrives(1.9 * strong_w, us(50), us(52));
     air.run();
-    EXPECT_EQ(count(FrameFate::interference), 1U);  // detected, and lost afterwards
+    EXPECT_EQ(count(FrameOutcome::interference), 1U);  // detected, and lost afterwards
 }
 
 TEST_F(RadioWithPreambleDetection, AFrameShorterThanTheDetectionIsUndetected) {
     config.preamble_duration_s = 1e-3;
     arrives(strong_w, us(100));
     air.run();
-    EXPECT_EQ(count(FrameFate::preamble_undetected), 1U);
+    EXPECT_EQ(count(FrameOutcome::preamble_undetected), 1U);
 }
 
 TEST_F(RadioWithPreambleDetection, StartingToTransmitGivesItUp) {
@@ -150,7 +150,7 @@ TEST_F(RadioWithPreambleDetection, StartingToTransmitGivesItUp) {
     arrives(strong_w, us(101));
     air.at(us(102), [&] { receiver().send(us(50)); });
     air.run();
-    EXPECT_EQ(count(FrameFate::receiver_transmitting), 2U);
+    EXPECT_EQ(count(FrameOutcome::receiver_transmitting), 2U);
 }
 
 class RadioWithFrameCapture : public RadioOptions {
@@ -163,7 +163,7 @@ TEST_F(RadioWithFrameCapture, AStrongerFrameTakesThePlaceOfAnother) {
     const NodeId strong = arrives(100 * strong_w, us(110));
     air.run();
     EXPECT_EQ(receiver().log.received_from, std::vector{strong});
-    EXPECT_EQ(count(FrameFate::captured), 1U);
+    EXPECT_EQ(count(FrameOutcome::captured), 1U);
     EXPECT_EQ(receiver().log.times_of(RadioWord::corrupted), std::vector{us(110)});
     EXPECT_EQ(receiver().log.times_of(RadioWord::busy), std::vector{us(100)});
 }
@@ -172,8 +172,8 @@ TEST_F(RadioWithFrameCapture, NotAfterTheWindow) {
     arrives(strong_w, us(100));
     arrives(100 * strong_w, us(117));
     air.run();
-    EXPECT_EQ(count(FrameFate::receiver_locked), 1U);
-    EXPECT_EQ(count(FrameFate::interference), 1U);
+    EXPECT_EQ(count(FrameOutcome::receiver_locked), 1U);
+    EXPECT_EQ(count(FrameOutcome::interference), 1U);
 }
 
 TEST_F(RadioWithFrameCapture, WithPreambleDetectionTheNewcomerHasToBeDetected) {
@@ -199,7 +199,7 @@ TEST_F(RadioWithChunks, WithoutItsHeaderAFrameIsGivenUpAtOnce) {
     arrives(strong_w, us(100));
     arrives(100 * strong_w, us(116), us(4));
     air.run();
-    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(count(FrameOutcome::header_error), 1U);
     EXPECT_EQ(receiver().log.times_of(RadioWord::corrupted), std::vector{us(120)});
     EXPECT_TRUE(receiver().log.corrupted.front().header_lost);
     EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(120)});
@@ -211,7 +211,7 @@ TEST_F(RadioWithChunks, AfterALostHeaderTheEnergyOfOthersKeepsTheChannelBusy) {
     arrives(strong_w, us(100));
     arrives(100 * strong_w, us(110));
     air.run();
-    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(count(FrameOutcome::header_error), 1U);
     EXPECT_EQ(receiver().log.times_of(RadioWord::free), std::vector{us(310)});
 }
 
@@ -226,8 +226,9 @@ TEST_F(RadioWithChunks, InterferenceWithTheDataIsBlamed) {
     arrives(strong_w, us(100));
     const NodeId other = arrives(100 * strong_w, us(150), us(20));
     air.run();
-    EXPECT_EQ(count(FrameFate::interference), 1U);
-    EXPECT_EQ(air.frame_fates.interferers_at(receiver().id()), (std::map<NodeId, std::uint64_t>{{other, 1}}));
+    EXPECT_EQ(count(FrameOutcome::interference), 1U);
+    EXPECT_EQ(air.frame_outcomes.interferers_at(receiver().id()),
+              (std::map<NodeId, std::uint64_t>{{other, 1}}));
 }
 
 // Interference only during the header, so strong that about half of the headers survive it.
@@ -257,7 +258,7 @@ TEST_F(RadioWithChunks, AHeaderThatSurvivedIsNotDecidedAgain) {
 TEST_F(RadioWithChunks, AFrameThatEndsWithItsHeaderIsDecided) {
     arrives(strong_w, us(100), us(18));
     air.run();
-    EXPECT_EQ(count(FrameFate::delivered), 1U);
+    EXPECT_EQ(count(FrameOutcome::delivered), 1U);
 }
 
 // A frame whose header is lost to a stronger one, which goes on.
@@ -276,14 +277,14 @@ protected:
 TEST_F(RadioThatLosesAHeader, TakesTheChannelToBeFree) {
     arrives(100 * strong_w, us(110));
     air.run();
-    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(count(FrameOutcome::header_error), 1U);
     EXPECT_EQ(times_free(), std::vector{us(120)});
 }
 
 TEST_F(RadioThatLosesAHeader, SensesWhatBeganWithinTheHeader) {
     arrives(100 * strong_w, us(117));
     air.run();
-    EXPECT_EQ(count(FrameFate::header_error), 1U);
+    EXPECT_EQ(count(FrameOutcome::header_error), 1U);
     EXPECT_EQ(times_free(), std::vector{us(317)});
 }
 
@@ -317,8 +318,8 @@ TEST(RadioNoise, ThermalNoiseIsAPropertyOfTheReceiver) {
         air.add_radio({100, 0, 0}, test::radio_of_power(test::power_for(w_from_dbm(-60), 100)));
     air.at(us(10), [&] { sender.send(us(200)); });
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(quiet, FrameFate::delivered), 1U);
-    EXPECT_EQ(air.broadcast_count_at(noisy, FrameFate::noise), 1U);
+    EXPECT_EQ(air.broadcast_count_at(quiet, FrameOutcome::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(noisy, FrameOutcome::noise), 1U);
 }
 
 // A receiver whose frames are lost only below 3 dB, and other systems that change each 100 µs.
@@ -359,9 +360,9 @@ protected:
             expected += received_w / (1e-12 + most_w) > 2 ? 1 : 0;
         }
         air.run();
-        EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::delivered), expected);
-        EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::noise) +
-                      air.broadcast_count_at(receiver, FrameFate::header_error),
+        EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::delivered), expected);
+        EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::noise) +
+                      air.broadcast_count_at(receiver, FrameOutcome::header_error),
                   count - expected);
         EXPECT_GT(expected, 20U);
         EXPECT_LT(expected, 280U);

@@ -23,7 +23,7 @@ TEST_F(RadioTest, ReceivesAFrame) {
     arrives(sender, us(10), us(100));
     air.run();
     EXPECT_EQ(receiver.log.received_from, std::vector{sender.id()});
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::delivered), 1U);
 }
 
 TEST_F(RadioTest, ReportsTheFrameBeforeTheChannelIsFree) {
@@ -68,7 +68,7 @@ TEST_F(RadioTest, SensitivityIsTheLeastPowerItLocksOnTo) {
     air.run();
     EXPECT_TRUE(deaf.log.received_from.empty());
     EXPECT_EQ(keen.log.received_from.size(), 1U);
-    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameFate::below_sensitivity), 1U);
+    EXPECT_EQ(air.frame_count(FrameKind::broadcast, FrameOutcome::below_sensitivity), 1U);
 }
 
 TEST_F(RadioTest, EnergyMakesTheChannelBusyWithoutALock) {
@@ -108,7 +108,7 @@ TEST_F(RadioTest, WhatStartsWhileItTransmitsIsNotReceived) {
     air.at(us(5), [&] { receiver.send(us(10)); });
     air.run();
     EXPECT_TRUE(receiver.log.received_from.empty());
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::receiver_transmitting), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::receiver_transmitting), 1U);
 }
 
 TEST_F(RadioTest, WhatStartsWhileItTransmitsKeepsTheChannelBusy) {
@@ -127,7 +127,7 @@ TEST_F(RadioTest, StartingToTransmitGivesUpAReception) {
     air.run();
     EXPECT_TRUE(receiver.log.received_from.empty());
     EXPECT_TRUE(receiver.log.times_of(RadioWord::corrupted).empty());
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::receiver_transmitting), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::receiver_transmitting), 1U);
 }
 
 TEST_F(RadioTest, LocksAgainAfterItsOwnFrame) {
@@ -145,8 +145,8 @@ TEST_F(RadioTest, AStrongerLaterFrameDoesNotCapture) {
     arrives(add_sender(1000 * strong_w), us(20), us(100));
     air.run();
     EXPECT_TRUE(receiver.log.received_from.empty());
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::interference), 1U);
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::receiver_locked), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::interference), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::receiver_locked), 1U);
     EXPECT_EQ(receiver.log.times_of(RadioWord::corrupted), std::vector{us(110)});
 }
 
@@ -157,7 +157,7 @@ TEST_F(RadioTest, AFarWeakerLaterFrameDoesNoHarm) {
     arrives(add_sender(strong_w), us(20), us(100));
     air.run();
     EXPECT_EQ(receiver.log.received_from, std::vector{strong.id()});
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::receiver_locked), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::receiver_locked), 1U);
 }
 
 TEST_F(RadioTest, WhatBeganDuringALockIsNotReceivedAfterIt) {
@@ -213,8 +213,8 @@ TEST_F(RadioTest, TheThresholdItselfIsNotEnough) {
     BareRadio& sender = air.add_radio({100, 0, 0}, test::radio_of_power(0.01));
     air.at(us(10), [&] { sender.send(us(100)); });
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(at_threshold, FrameFate::noise), 1U);
-    EXPECT_EQ(air.broadcast_count_at(above_threshold, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(at_threshold, FrameOutcome::noise), 1U);
+    EXPECT_EQ(air.broadcast_count_at(above_threshold, FrameOutcome::delivered), 1U);
 }
 
 TEST_F(RadioTest, WhatNoiseAloneWouldHaveLostIsLostToNoise) {
@@ -224,8 +224,8 @@ TEST_F(RadioTest, WhatNoiseAloneWouldHaveLostIsLostToNoise) {
     arrives(add_sender(strong_w), us(10), us(100));
     arrives(add_sender(strong_w), us(20), us(100));
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::noise), 1U);
-    EXPECT_TRUE(air.frame_fates.interferers_at(receiver.id()).empty());
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::noise), 1U);
+    EXPECT_TRUE(air.frame_outcomes.interferers_at(receiver.id()).empty());
 }
 
 TEST_F(RadioTest, ItsOwnEarlierFrameIsNoInterference) {
@@ -234,7 +234,7 @@ TEST_F(RadioTest, ItsOwnEarlierFrameIsNoInterference) {
     air.at(us(5), [&] { receiver.send(us(10)); });
     arrives(sender, us(15), us(100));
     air.run();
-    EXPECT_EQ(air.broadcast_count_at(receiver, FrameFate::delivered), 1U);
+    EXPECT_EQ(air.broadcast_count_at(receiver, FrameOutcome::delivered), 1U);
 }
 
 TEST_F(RadioTest, AnotherChannelIsSilent) {
@@ -244,7 +244,7 @@ TEST_F(RadioTest, AnotherChannelIsSilent) {
     arrives(add_sender(1), us(10), us(100));
     air.run();
     EXPECT_TRUE(receiver.log.events.empty());
-    EXPECT_EQ(air.frame_fates.copies(FrameKind::broadcast, false), 0U);
+    EXPECT_EQ(air.frame_outcomes.copies(FrameKind::broadcast, false), 0U);
 }
 
 TEST_F(RadioTest, AnotherChannelDoesNotInterfere) {

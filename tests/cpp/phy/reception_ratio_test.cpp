@@ -101,12 +101,13 @@ TEST_P(ReceptionRatio, IsThatOfTheErrorModelAtEveryDistance) {
     }
     for (const Point& point : points) {
         const auto [low, high] = binomial_interval(frames, point.probability);
-        const auto decoded = static_cast<int>(air.broadcast_count_at(*point.receiver, FrameFate::delivered));
+        const auto decoded =
+            static_cast<int>(air.broadcast_count_at(*point.receiver, FrameOutcome::delivered));
         EXPECT_GE(decoded, low) << mode.name << " at " << point.distance_m << " m, chance "
                                 << point.probability;
         EXPECT_LE(decoded, high) << mode.name << " at " << point.distance_m << " m, chance "
                                  << point.probability;
-        EXPECT_EQ(air.broadcast_count_at(*point.receiver, FrameFate::noise),
+        EXPECT_EQ(air.broadcast_count_at(*point.receiver, FrameOutcome::noise),
                   frames - static_cast<unsigned>(decoded));
     }
 }

@@ -154,11 +154,11 @@ class Air {
 public:
     explicit Air(const MediumConfig& config = MediumConfig(), Culling culling = Culling::enabled,
                  std::uint64_t seed = 1)
-        : medium(simulator, config, frame_fates, fingerprint, culling, seed), seed_(seed) {}
+        : medium(simulator, config, frame_outcomes, fingerprint, culling, seed), seed_(seed) {}
 
     // The first interface of another node.
     InterfaceId next_node() {
-        frame_fates.add_node();
+        frame_outcomes.add_node();
         return InterfaceId{node_count_++, 0};
     }
     BareRadio& add_radio(Position place, const RadioConfig& config = RadioConfig()) {
@@ -184,23 +184,24 @@ public:
     }
     void run(SimTime limit = SimTime::from_seconds(100)) { simulator.run_until(limit); }
 
-    std::uint64_t frame_count(FrameKind kind, FrameFate fate, bool overheard = false) const {
-        return frame_fates.counts(kind, overheard)[static_cast<std::size_t>(fate)];
+    std::uint64_t frame_count(FrameKind kind, FrameOutcome outcome, bool overheard = false) const {
+        return frame_outcomes.counts(kind, overheard)[static_cast<std::size_t>(outcome)];
     }
-    std::uint64_t broadcast_count_at(const BareRadio& receiver, FrameFate fate) const {
-        return frame_fates.counts_at(receiver.id(), FrameKind::broadcast)[static_cast<std::size_t>(fate)];
+    std::uint64_t broadcast_count_at(const BareRadio& receiver, FrameOutcome outcome) const {
+        return frame_outcomes.counts_at(receiver.id(),
+                                        FrameKind::broadcast)[static_cast<std::size_t>(outcome)];
     }
     // For all stations.
-    std::uint64_t message_count(MessageKind kind, MessageFate fate) const {
-        MessageFateSums sums;
+    std::uint64_t message_count(MessageKind kind, MessageOutcome outcome) const {
+        MessageOutcomeSums sums;
         for (const Station& station : stations_) {
-            sums.add(station.dcf.message_fates());
+            sums.add(station.dcf.message_outcomes());
         }
-        return sums.counts(kind)[static_cast<std::size_t>(fate)];
+        return sums.counts(kind)[static_cast<std::size_t>(outcome)];
     }
 
     Simulator simulator;
-    FrameFates frame_fates;
+    FrameOutcomes frame_outcomes;
     Fingerprint fingerprint;
     Medium medium;
 

@@ -87,12 +87,12 @@ protected:
     static RandomStream draws_of(const Device& device) {
         return {seed, static_cast<std::uint32_t>(device.id()), Purpose::csma_backoff};
     }
-    std::uint64_t messages(MessageKind kind, MessageFate fate) const {
-        MessageFateSums sums;
+    std::uint64_t messages(MessageKind kind, MessageOutcome outcome) const {
+        MessageOutcomeSums sums;
         for (const Device& device : devices_) {
-            sums.add(device.csma.message_fates());
+            sums.add(device.csma.message_outcomes());
         }
-        return sums.counts(kind)[static_cast<std::size_t>(fate)];
+        return sums.counts(kind)[static_cast<std::size_t>(outcome)];
     }
 
     Air air;

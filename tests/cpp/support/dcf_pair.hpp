@@ -34,7 +34,7 @@ protected:
     }
     // Unicast messages, in both directions.
     std::uint64_t given_up() const {
-        return air.message_count(MessageKind::unicast, MessageFate::retry_limit);
+        return air.message_count(MessageKind::unicast, MessageOutcome::retry_limit);
     }
 
     Air air;

@@ -142,20 +142,20 @@ private:
         for (std::size_t index = 0; is_at_rest_ && index < frame_kind_count; ++index) {
             for (const bool overheard : {false, true}) {
                 const auto kind = static_cast<FrameKind>(index);
-                const FrameFates::Counts counts = network.frame_fates().counts(kind, overheard);
-                if (counts[static_cast<std::size_t>(FrameFate::in_air)] != 0 ||
+                const FrameOutcomes::Counts counts = network.frame_outcomes().counts(kind, overheard);
+                if (counts[static_cast<std::size_t>(FrameOutcome::in_air)] != 0 ||
                     std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) !=
-                        network.frame_fates().copies(kind, overheard)) {
+                        network.frame_outcomes().copies(kind, overheard)) {
                     return std::string("copies of ") + frame_kind_names[index];
                 }
             }
         }
         std::uint64_t queued = 0;
         for (const MessageKind kind : {MessageKind::broadcast, MessageKind::unicast}) {
-            const MessageFates::Counts counts = network.message_fates().counts(kind);
-            queued += counts[static_cast<std::size_t>(MessageFate::queued)];
+            const MessageOutcomes::Counts counts = network.message_outcomes().counts(kind);
+            queued += counts[static_cast<std::size_t>(MessageOutcome::queued)];
             if (std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) !=
-                network.message_fates().accepted(kind)) {
+                network.message_outcomes().accepted(kind)) {
                 return std::string("messages: ") + message_kind_names[static_cast<std::size_t>(kind)];
             }
         }

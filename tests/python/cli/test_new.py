@@ -40,7 +40,7 @@ def test_every_run_of_its_study_can_be_checked(project):
 
 def test_its_study_is_about_collisions(project):
     small, large = (
-        run(load_scenarios(project / "swarm.ini", "Study")[number]).fates["frames"]["broadcast"]
+        run(load_scenarios(project / "swarm.ini", "Study")[number]).outcomes["frames"]["broadcast"]
         for number in (0, 3)
     )
     assert small["below_sensitivity"] == large["below_sensitivity"] == 0

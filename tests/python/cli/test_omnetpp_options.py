@@ -49,8 +49,8 @@ def test_scalars_do_without_vectors_and_vectors_without_scalars(gradysim, folder
 
 
 @compiled
-def test_fates_at_nodes_are_scalars(gradysim, folder):
-    gradysim("run", "test.ini", "-r", "0", "--scalars", "--fates-at", "uavs[0]", "--quiet")
+def test_outcomes_at_nodes_are_scalars(gradysim, folder):
+    gradysim("run", "test.ini", "-r", "0", "--scalars", "--outcomes-at", "uavs[0]", "--quiet")
     rows = read_scalars(folder / "results/General-#0.integrated.sca")
     told = {
         (row["module"], row["name"]): row["value"]

@@ -14,12 +14,12 @@ from gradysim.cli.summary import (
 from gradysim.results.result import NodeResult
 
 
-def node(name, frame_fates, interferers=(), message_fates=()):
+def node(name, frame_outcomes, interferers=(), message_outcomes=()):
     return NodeResult(
         *(0, name, "Mobile", (0.0, 0.0, 0.0), {}),
-        frame_fates=frame_fates,
+        frame_outcomes=frame_outcomes,
         interferers=dict(interferers),
-        message_fates=dict(message_fates),
+        message_outcomes=dict(message_outcomes),
     )
 
 
@@ -81,8 +81,8 @@ def test_kinds_of_frames_that_may_be_for_others_are_named(kinds, text):
 
 
 def test_interferers_by_their_copies():
-    fates = {"broadcast": {"interference": 3}, "unicast": {"interference": 2, "delivered": 9}}
-    table = interferer_table([node("a", {}), node("b", fates, {"c": 1, "d": 4, "e": 1})])
+    outcomes = {"broadcast": {"interference": 3}, "unicast": {"interference": 2, "delivered": 9}}
+    table = interferer_table([node("a", {}), node("b", outcomes, {"c": 1, "d": 4, "e": 1})])
     assert lines(table)[2:] == [["b", "5", "d", "4,", "c", "1,", "e", "1"]]
 
 
@@ -95,7 +95,7 @@ def test_many_interferers_are_cut_short():
 def test_a_row_for_each_kind_of_message_from_each_node():
     sender = {"wlan[0]": {"unicast": {"acknowledged": 1234, "retry_limit": 1}, "broadcast": {"sent": 5}}}
     silent = {"wlan[0]": {}}
-    nodes = [node("a", {}, message_fates=sender), node("b", {}, message_fates=silent)]
+    nodes = [node("a", {}, message_outcomes=sender), node("b", {}, message_outcomes=silent)]
     assert lines(messages_from_nodes(nodes, network("sent", "acknowledged", "retry_limit", "queued"))) == [
         ["retry"],
         ["from", "sent", "acknowledged", "limit"],
@@ -108,12 +108,12 @@ def test_a_row_for_each_kind_of_message_from_each_node():
 
 def test_the_interface_is_named_where_there_are_several():
     two = {"wlan[0]": {}, "wlan[1]": {"broadcast": {"sent": 3}}}
-    table = messages_from_nodes([node("relay", {}, message_fates=two)], network("sent"))
+    table = messages_from_nodes([node("relay", {}, message_outcomes=two)], network("sent"))
     assert ["relay.wlan[1]", "broadcast", "3"] in lines(table)
 
 
 def test_nodes_that_sent_nothing_are_told():
-    assert lines(messages_from_nodes([node("a", {}, message_fates={"wlan[0]": {}})], network("sent"))) == [
+    assert lines(messages_from_nodes([node("a", {}, message_outcomes={"wlan[0]": {}})], network("sent"))) == [
         ["no", "protocol", "sent", "a", "message", "there"]
     ]
 
@@ -128,7 +128,7 @@ COLUMNS = {
 
 def printed(columns, width):
     text = StringIO()
-    Console(file=text, width=width).print(count_table("fate", columns))
+    Console(file=text, width=width).print(count_table("outcome", columns))
     return text.getvalue()
 
 
@@ -136,7 +136,7 @@ def test_rows_columns_and_sums():
     text = printed({"one": {"a": 1, "b": 2000}, "two words": {"b": 3}}, width=80)
     assert [line.split() for line in text.splitlines() if line.strip() and "─" not in line] == [
         ["two"],
-        ["fate", "one", "words"],
+        ["outcome", "one", "words"],
         ["a", "1", "0"],
         ["b", "2,000", "3"],
         ["sum", "2,001", "3"],

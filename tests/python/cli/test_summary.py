@@ -24,7 +24,7 @@ def result(**changes):
         "events": 123456,
         "interrupted": False,
         "fingerprint": "0123456789abcdef",
-        "fates": {
+        "outcomes": {
             "frames": {
                 "broadcast": {"delivered": 1500, "below_sensitivity": 2, "interference": 0},
                 "ack": {"delivered": 3},
@@ -134,7 +134,7 @@ def test_a_long_value_is_cut_shorter():
 
 def test_kinds_are_rows_with_the_outcomes_that_there_were():
     delays = {"unicast": constant_delays({0.001: 93, 0.002: 4, 0.003: 3})}
-    fates = {
+    outcomes = {
         "frames": {
             "broadcast": {"delivered": 0},
             "unicast": {"delivered": 5, "noise": 0, "interference": 2},
@@ -142,7 +142,7 @@ def test_kinds_are_rows_with_the_outcomes_that_there_were():
         },
         "messages": {"unicast": {"acknowledged": 1234, "queued": 0}},
     }
-    rows = short_rows(fates=fates, message_delays=delays)
+    rows = short_rows(outcomes=outcomes, message_delays=delays)
     assert ["receptions", "delivered", "interference"] in rows
     assert ["unicast", "5", "2"] in rows
     assert ["unicast", "1,234", "1.1", "ms", "2", "ms"] in rows
@@ -155,7 +155,7 @@ def test_a_summary_fits_a_screen_of_40_lines():
     messages = {kind: {"sent": 1} for kind in kinds[:2]}
     variables = {"data": 5, "sent": 6}
     text = printed(
-        80, False, nodes=named([variables] * MAX_ROWS), fates={"frames": frames, "messages": messages}
+        80, False, nodes=named([variables] * MAX_ROWS), outcomes={"frames": frames, "messages": messages}
     )
     assert len(text.splitlines()) <= 40
 
@@ -174,7 +174,7 @@ def test_the_line_has_the_means_of_groups():
         *named([{"data": 7}], "sensors"),
     )
     assert (
-        run_line(result(nodes=nodes, fates={}), "run 2", 80)
+        run_line(result(nodes=nodes, outcomes={}), "run 2", 80)
         == "run 2  uavs data 1.5  sensors data 7  2.000 s"
     )
 
@@ -219,7 +219,7 @@ def test_values_of_iteration_variables_are_in_the_heading():
     assert shown.splitlines()[0][:-16] == heading
 
 
-def test_fates_are_a_table_with_a_column_per_kind():
+def test_outcomes_are_a_table_with_a_column_per_kind():
     lines = [line.split() for line in printed().splitlines()]
     assert ["outcome", "broadcast", "ack"] in lines
     assert ["delivered", "1,500", "3"] in lines
@@ -228,7 +228,7 @@ def test_fates_are_a_table_with_a_column_per_kind():
 
 
 def test_a_table_of_nothing_is_left_out():
-    assert "Outcomes" not in printed(fates={"frames": {"broadcast": {"delivered": 0}}})
+    assert "Outcomes" not in printed(outcomes={"frames": {"broadcast": {"delivered": 0}}})
 
 
 def test_what_belongs_to_options_is_shown_where_there_was_any():
@@ -238,7 +238,7 @@ def test_what_belongs_to_options_is_shown_where_there_was_any():
         "rts": {"delivered": 0, "noise": 0, "captured": 0, "header_error": 0},
         "cts": {"delivered": 3, "noise": 0, "captured": 0, "header_error": 0},
     }
-    lines = [line.split() for line in printed(fates={"frames": kinds}).splitlines()]
+    lines = [line.split() for line in printed(outcomes={"frames": kinds}).splitlines()]
     assert ["outcome", "unicast", "ack", "cts"] in lines
     assert ["noise", "0", "0", "0"] in lines
     assert ["captured", "2", "0", "0"] in lines
@@ -319,16 +319,16 @@ def test_many_nodes_are_cut_short(count, shown):
 
 def told_nodes(count):
     """Return nodes of a run with outcomes of frames."""
-    fates = {"broadcast": {"delivered": 2, "interference": 1}}
+    outcomes = {"broadcast": {"delivered": 2, "interference": 1}}
     told = {
-        "frame_fates": fates,
+        "frame_outcomes": outcomes,
         "interferers": {"uavs[0]": 1},
-        "message_fates": {"wlan[0]": {"unicast": {"sent": 4}}},
+        "message_outcomes": {"wlan[0]": {"unicast": {"sent": 4}}},
     }
     return tuple(replace(node, **told) for node in nodes(count))
 
 
-def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
+def test_outcomes_at_nodes_are_there_if_the_run_was_asked_for_them():
     lines = [line.split() for line in printed(nodes=(*told_nodes(1), *nodes(1))).splitlines()]
     assert ["uavs[0]", "broadcast", "2", "1"] in lines
     assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
@@ -338,13 +338,13 @@ def test_fates_at_nodes_are_there_if_the_run_was_asked_for_them():
 
 @pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])
 def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
-    at_node = replace(*nodes(1), frame_fates={kind: {"delivered": 1}}, message_fates={})
+    at_node = replace(*nodes(1), frame_outcomes={kind: {"delivered": 1}}, message_outcomes={})
     text = f"of {kind}, frames for other nodes that were overheard count, too"
     assert (text in printed(nodes=(at_node,))) is told
 
 
 @pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
-def test_fates_at_many_nodes_are_cut_short(count, shown):
+def test_outcomes_at_many_nodes_are_cut_short(count, shown):
     _, _, text = printed(nodes=told_nodes(count)).partition("Outcomes of frames at nodes")
     assert (text.count(" broadcast "), text.count(" unicast ")) == (shown, shown)
     assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)

@@ -114,12 +114,12 @@ def play(mode: str, case: Case, script: Script) -> Outcome:
     log: list[Entry] = []
     members = {"log": log, "script": script, "node_count": len(case.positions)}
     result = case.run(mode, type("Scripted", (Scripted,), members))
-    fates = result.fates["frames"]
+    outcomes = result.outcomes["frames"]
     return Outcome(
         log=log,
         tracked=[dict(node.tracked_variables) for node in result.nodes],
         copies={
-            kind: (fates[kind]["delivered"], fates[kind]["in_air"], fates[kind]["below_sensitivity"])
+            kind: (outcomes[kind]["delivered"], outcomes[kind]["in_air"], outcomes[kind]["below_sensitivity"])
             for kind in ("broadcast", "unicast")
         },
     )

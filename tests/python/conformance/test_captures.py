@@ -55,10 +55,12 @@ class Minute:
     files: dict[str, Path]
     seen: dict[str, list[Seen]]
 
-    def copies(self, kind: str, *fates: str) -> int:
+    def copies(self, kind: str, *outcomes: str) -> int:
         """Return the receptions of a kind with these outcomes (all, if none), at addressees and others."""
         books = (self.frames[kind], self.frames.get(f"{kind} overheard", {}))
-        return sum(count for book in books for fate, count in book.items() if not fates or fate in fates)
+        return sum(
+            count for book in books for outcome, count in book.items() if not outcomes or outcome in outcomes
+        )
 
     def count(self, kind: str, *, sent: bool, bad: bool = False) -> int:
         """Return the same count from the files."""
@@ -85,7 +87,9 @@ def minute(tmp_path_factory: pytest.TempPathFactory) -> Minute:
         check=True,
     )
     files = {node: folder / f"ZigZag5-#0-{node}.pcap" for node in NODES}
-    return Minute(json.loads(done.stdout)["fates"]["frames"], files, {n: read(f) for n, f in files.items()})
+    return Minute(
+        json.loads(done.stdout)["outcomes"]["frames"], files, {n: read(f) for n, f in files.items()}
+    )
 
 
 def read(file: Path) -> list[Seen]:

@@ -35,7 +35,7 @@ alone = cache(fly)
 
 def what_happened(result: RunResult) -> tuple[object, ...]:
     """Return the result without its run times."""
-    return result.events, result.fingerprint, result.fates, result.nodes
+    return result.events, result.fingerprint, result.outcomes, result.nodes
 
 
 @pytest.mark.parametrize("config", CONFIGS)

@@ -37,7 +37,7 @@ def log_of(result: Any, node: int = 0) -> list[Any]:
 def test_a_message_that_a_full_queue_drops_is_reported(make_scenario: Any) -> None:
     result = MODES["integrated"](make_scenario(FAILING, ONE_BY_ONE))
     assert log_of(result) == [(1, str(number), None, "queue_overflow") for number in (1, 2, 3)]
-    assert result.fates["messages"]["broadcast"]["queue_overflow"] == 3
+    assert result.outcomes["messages"]["broadcast"]["queue_overflow"] == 3
 
 
 UNICAST = """
@@ -139,10 +139,10 @@ def test_a_queue_that_blocks_drops_nothing(make_scenario: Any) -> None:
         MODES["integrated"](make_scenario(SATURATED, *SLOW, f'**.pendingQueue.whenFull = "{what}"'))
         for what in ("drop", "block")
     )
-    fates = [result.fates["messages"]["unicast"] for result in (dropping, blocking)]
-    assert fates[0]["queue_overflow"] > 1000
-    assert fates[1]["queue_overflow"] == 0
-    assert fates[1]["queued"] <= 102  # the queue, one in progress, and one in front of the queue
+    outcomes = [result.outcomes["messages"]["unicast"] for result in (dropping, blocking)]
+    assert outcomes[0]["queue_overflow"] > 1000
+    assert outcomes[1]["queue_overflow"] == 0
+    assert outcomes[1]["queued"] <= 102  # the queue, one in progress, and one in front of the queue
     numbers = [[number for _, number in log_of(result, 1)] for result in (dropping, blocking)]
     assert len(numbers[0]) < 0.5 * 150
     assert numbers[1] == list(range(len(numbers[1])))  # none is lost, but they are late
@@ -190,8 +190,8 @@ def test_events_wait_until_the_message_has_entered(make_scenario: Any, settings:
     assert (first, second) == ("send", "later")
     assert (first_s, second_s) == (1, pytest.approx(1.001, abs=0.02))
     assert second_s > 1.0001  # two frames were on the air meanwhile
-    assert result.fates["messages"]["broadcast"] == {"sent": 4} | {
-        fate: 0 for fate in result.fates["messages"]["broadcast"] if fate != "sent"
+    assert result.outcomes["messages"]["broadcast"] == {"sent": 4} | {
+        outcome: 0 for outcome in result.outcomes["messages"]["broadcast"] if outcome != "sent"
     }
 
 

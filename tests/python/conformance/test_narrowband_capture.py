@@ -41,7 +41,7 @@ def test_scapy_finds_what_the_ledger_counts(field: tuple[RunResult, Path]) -> No
     with PcapReader(str(file)) as reader:
         frames = [Dot15d4FCS(bytes(packet)) for packet in reader]
     kinds = Counter(frame.fcf_frametype for frame in frames)
-    delivered = result.fates["frames"]["unicast"]["delivered"]
+    delivered = result.outcomes["frames"]["unicast"]["delivered"]
     assert delivered > 0
     assert kinds == {DATA: delivered, ACK: delivered}
     assert {frame.fcf_ackreq for frame in frames if frame.fcf_frametype == DATA} == {1}

@@ -72,7 +72,7 @@ def what_happened(result: RunResult) -> tuple[object, ...]:
     return (
         result.result_hash,
         result.events,
-        result.fates,
+        result.outcomes,
         [(node.position, node.tracked_variables) for node in result.nodes],
     )
 

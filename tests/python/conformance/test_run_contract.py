@@ -191,4 +191,4 @@ def test_what_a_failed_run_computed_is_not_lost(make_run):
     result = failing.result()
     assert result.interrupted
     assert result.sim_time_s == pytest.approx(0.1, abs=0.01)
-    assert result.fates["messages"]["broadcast"]["sent"] == 1
+    assert result.outcomes["messages"]["broadcast"]["sent"] == 1

@@ -1,5 +1,6 @@
 import json
 import os
+import shutil
 import signal
 import sqlite3
 import subprocess
@@ -17,6 +18,7 @@ from gradysim.results.files import read_run_file
 from gradysim.results.means import read_means
 from gradysim.results.pack import packed_files, packed_texts
 from gradysim.results.result_dir import read_results, result_names
+from gradysim.results.run_table import outcomes_of, runs
 from gradysim.scenario.errors import ConfigError
 
 
@@ -28,7 +30,7 @@ def write(directory: Path, run: int, heard: int = 1, **changes: Any) -> Path:
         "seed": run,
         "interrupted": False,
         "iterations": {},
-        "fates": {},
+        "outcomes": {},
         "nodes": [{"name": "uavs[0]", "tracked_variables": {"heard": heard}}],
         **changes,
     }
@@ -64,6 +66,15 @@ def test_means_and_results_are_those_of_the_files(tmp_path: Path) -> None:
     pack(tmp_path, default_pack(tmp_path), remove=True)
     assert (read_means(tmp_path), read_results(tmp_path)) == (means, results)
     assert read_run_file(results[1].file)["run"] == 1
+
+
+def test_a_packed_file_of_an_earlier_version_has_the_names_of_now(tmp_path: Path) -> None:
+    (earlier,) = (Path(__file__).parents[1] / "results/earlier_names").iterdir()
+    shutil.copy(earlier, tmp_path)
+    pack(tmp_path, default_pack(tmp_path), remove=True)
+    (run,) = runs(tmp_path)
+    assert outcomes_of(run)["messages"]["broadcast"]["queued"] == 2
+    assert run.numbers["broadcast frames delivered"] == 30 / 418
 
 
 def test_a_pack_elsewhere_is_read_by_its_path(tmp_path: Path) -> None:

@@ -51,4 +51,4 @@ def test_every_rate_control_is_in_its_table_and_works(guide: str, scenario_file:
     assert f'| `"{typename}"` |' in guide
     settings = [f'**.rateControl.typename = "{typename}"', "sim-time-limit = 1s"]
     (scenario,) = load_scenarios(scenario_file, overrides=settings)
-    assert run(scenario).fates["messages"]["unicast"]["acknowledged"] > 90
+    assert run(scenario).outcomes["messages"]["unicast"]["acknowledged"] > 90

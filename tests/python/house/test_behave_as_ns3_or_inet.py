@@ -23,4 +23,4 @@ def test_its_lines_run(
     file.write_text(f"include {root}/configs/zigzag.ini\n{lines}")
     (scenario,) = load_scenarios(file, config, runs=[0], overrides=["sim-time-limit = 2s"])
     assert not lint_networks([scenario])
-    assert gradysim.integrated.run.run(scenario).fates["frames"]["broadcast"]["delivered"] > 0
+    assert gradysim.integrated.run.run(scenario).outcomes["frames"]["broadcast"]["delivered"] > 0

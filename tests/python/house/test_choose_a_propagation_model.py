@@ -26,7 +26,7 @@ def test_its_lines_run(
     assert antennas.nodes[0].wlan[0].antenna["typename"].value == "ParabolicAntenna"
     assert len(obstacles.obstacles) == 2
     for scenario in (fading, antennas, obstacles):
-        assert run(scenario).fates["messages"]["broadcast"]["sent"] > 0
+        assert run(scenario).outcomes["messages"]["broadcast"]["sent"] > 0
 
 
 @pytest.fixture

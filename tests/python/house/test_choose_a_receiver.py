@@ -40,9 +40,9 @@ def test_its_lines_and_its_table_run(root: Path, guide: str, tmp_path: Path) -> 
     file.write_text(f"[General]\n{lines}\ninclude {root}/configs/reference/jittered.ini\n")
     (scenario,) = load_scenarios(file, overrides=["sim-time-limit = 2.1s"])
     assert not lint_networks([scenario])
-    fates = gradysim.integrated.run.run(scenario).fates["frames"]["broadcast"]
-    assert fates["delivered"] > 0
-    assert fates["preamble_undetected"] > 0
+    outcomes = gradysim.integrated.run.run(scenario).outcomes["frames"]["broadcast"]
+    assert outcomes["delivered"] > 0
+    assert outcomes["preamble_undetected"] > 0
 
 
 def test_other_systems_make_the_step_of_delivery_as_wide_as_it_says(

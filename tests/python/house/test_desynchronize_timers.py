@@ -31,4 +31,4 @@ def test_its_protocol_sends_each_second_and_a_little_later(
         '[General]\nsim-time-limit=100s\n*.numNodes=2\n*.nodes[*].protocol.class="reporter.py:Reporter"\n'
     )
     result = json.loads(shell("gradysim run reporter.ini --json", tmp_path))
-    assert result["fates"]["messages"]["broadcast"]["sent"] == 2 * 99
+    assert result["outcomes"]["messages"]["broadcast"]["sent"] == 2 * 99

@@ -158,7 +158,7 @@ def test_sensor_field(root: Path, page: str) -> None:
     for mode in MODES:
         for config in ("Spread", "Synchronised"):
             (result,) = results(root, "sensor_field.ini", config, mode)
-            messages = result.fates["messages"]["unicast"]
+            messages = result.outcomes["messages"]["unicast"]
             acknowledged[mode, config] = f"{messages['acknowledged']} of {sum(messages.values())}"
     assert [acknowledged["prototype", config] for config in ("Spread", "Synchronised")] == [
         "600 of 600",

@@ -30,7 +30,7 @@ def test_its_commands_print_what_is_said(folder: Path, shell: Callable[..., str]
     assert len(lines) == 3
     for command, percent in lines:
         result = json.loads(shell(f"{command} --json --quiet", folder))
-        broadcast = result["fates"]["frames"]["broadcast"]
+        broadcast = result["outcomes"]["frames"]["broadcast"]
         decided = sum(count for outcome, count in broadcast.items() if outcome != "in_air")
         assert broadcast["delivered"] / decided == int(percent) / 100
 

@@ -32,11 +32,14 @@ def test_it_shows_a_summary(
 
 def test_it_explains_every_outcome(root: Path, file: Path) -> None:
     text = " ".join((root / PAGE).read_text().split())
-    fates = run(load_scenarios(file)[0]).fates
+    outcomes = run(load_scenarios(file)[0]).outcomes
     names = {
-        fate.replace("_", " ") for kinds in fates.values() for counts in kinds.values() for fate in counts
+        outcome.replace("_", " ")
+        for kinds in outcomes.values()
+        for counts in kinds.values()
+        for outcome in counts
     }
-    columns = {word for kinds in fates.values() for kind in kinds for word in kind.split()}
+    columns = {word for kinds in outcomes.values() for kind in kinds for word in kind.split()}
     assert {name for name in names if name not in text} == set()
     assert columns - {"broadcast"} <= set(re.findall(r"\w+", text))
 

@@ -79,12 +79,12 @@ def test_the_figures_are_drawn_from_a_study(
 def test_at_the_ground_station_all_heartbeats_meet_its_own(
     commands: list[str], shell: Shell, text: str, root: Path
 ) -> None:
-    (command,) = [command for command in commands if "--fates-at" in command]
+    (command,) = [command for command in commands if "--outcomes-at" in command]
     nodes = json.loads(shell(f"{command} --json --quiet", root))["nodes"]
     copies, stay = re.findall(
         r"(\d+) copies of heartbeats were .* send ([\d,]+) readings", " ".join(text.split())
     )[0]
-    assert nodes[-1]["frame_fates"] == {"broadcast": {"receiver_transmitting": int(copies)}}
+    assert nodes[-1]["frame_outcomes"] == {"broadcast": {"receiver_transmitting": int(copies)}}
     assert sum(node["tracked_variables"].get("collected", 0) for node in nodes) == int(stay.replace(",", ""))
 
 

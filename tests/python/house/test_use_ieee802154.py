@@ -46,7 +46,7 @@ def test_nine_of_ten_messages_go_as_far_as_it_says(guide: str, root: Path) -> No
             "**.wlan[*].mac.useMACAcks = false",
         ],
     )
-    frames = run(scenario).fates["frames"]["unicast"]
+    frames = run(scenario).outcomes["frames"]["unicast"]
     assert frames["delivered"] / (frames["delivered"] + frames["noise"]) == pytest.approx(0.9, abs=0.02)
 
 

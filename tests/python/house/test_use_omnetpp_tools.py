@@ -94,7 +94,7 @@ def test_its_tables_have_the_names_that_are_written(shell: Shell, root: Path, fo
             "[Config Hidden]\n*.nodes[*].mobility.lineStepX = 400m\n*.nodes[*].protocol.jitter = 1ms\n"
         )
         file.write('**.mac.dcf.rateControl.typename = "ArfRateControl"\n')
-    shell(f"gradysim run hello.ini {options} --fates-at all", folder)
+    shell(f"gradysim run hello.ini {options} --outcomes-at all", folder)
     shell(f"gradysim run hello.ini {options} --mode prototype", folder)
     written = {(row["module"], row["name"]) for row in read_scalars(folder.glob("results/*.sca"))}
     never_here = {

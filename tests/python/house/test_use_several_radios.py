@@ -45,5 +45,5 @@ def test_its_commands_are_understood(guide: str) -> None:
 def test_its_figures_are_those_of_the_run(guide: str, root: Path) -> None:
     ((lost, sent),) = re.findall(r"(\d+) of (\d+) frames to the ground station are\slost", guide)
     (scenario,) = load_scenarios(root / "configs/sensor_field.ini", "SharedSpectrum")
-    fates = run(scenario).fates["frames"]["unicast"]
-    assert (fates["interference"], sum(fates.values())) == (int(lost), int(sent))
+    outcomes = run(scenario).outcomes["frames"]["unicast"]
+    assert (outcomes["interference"], sum(outcomes.values())) == (int(lost), int(sent))

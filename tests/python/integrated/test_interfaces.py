@@ -52,7 +52,9 @@ def test_interfaces_that_share_a_channel_by_default_are_told_where_they_are_coun
 
 
 def test_where_there_are_no_radios_they_need_no_channels(make_scenario):
-    assert run(make_scenario(SENDING.format(1), TWO, UNIT_DISK)).fates["messages"]["broadcast"]["sent"] == 2
+    assert (
+        run(make_scenario(SENDING.format(1), TWO, UNIT_DISK)).outcomes["messages"]["broadcast"]["sent"] == 2
+    )
 
 
 @pytest.mark.parametrize(
@@ -71,7 +73,7 @@ def test_a_command_names_an_interface_that_is_there(make_scenario, interface, te
 def test_an_index_of_a_class_of_its_own_is_an_int_too(make_scenario):
     """For example, members of an enumeration that names the interfaces."""
     sending = SENDING.format("type('Index', (int,), {})(1)")
-    assert run(make_scenario(sending, TWO, UNIT_DISK)).fates["messages"]["broadcast"]["sent"] == 2
+    assert run(make_scenario(sending, TWO, UNIT_DISK)).outcomes["messages"]["broadcast"]["sent"] == 2
 
 
 @pytest.mark.parametrize(("count", "is_allowed"), [(MOST_INTERFACES, True), (MOST_INTERFACES + 1, False)])

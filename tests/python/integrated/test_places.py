@@ -14,8 +14,10 @@ def lost_in_slots(*places: str) -> int:
     """Return the unicast frames that ten saturated stations lose by sharing a slot."""
     overrides = ["*.numStations = 10", "sim-time-limit = 2s", *places]
     (scenario,) = load_scenarios(SATURATION, "G54", overrides=overrides)
-    fates = run(scenario).fates["frames"]["unicast"]
-    return int(sum(fates[fate] for fate in ("interference", "receiver_locked", "receiver_transmitting")))
+    outcomes = run(scenario).outcomes["frames"]["unicast"]
+    return int(
+        sum(outcomes[outcome] for outcome in ("interference", "receiver_locked", "receiver_transmitting"))
+    )
 
 
 @pytest.mark.parametrize(

@@ -12,23 +12,23 @@ from gradysim.scenario.options import OPTIONS
 PACKETS = '    def handle_packet(self, message): raise RuntimeError("spoilt")'
 
 
-def test_fates_count_what_was_sent(make_scenario):
-    fates = run(make_scenario()).fates
-    assert fates["messages"]["broadcast"]["sent"] == 40
-    assert fates["frames"]["broadcast"]["delivered"] == 40
+def test_outcomes_count_what_was_sent(make_scenario):
+    outcomes = run(make_scenario()).outcomes
+    assert outcomes["messages"]["broadcast"]["sent"] == 40
+    assert outcomes["frames"]["broadcast"]["delivered"] == 40
 
 
-def test_fates_of_options_are_in_all_results(make_scenario):
+def test_outcomes_of_options_are_in_all_results(make_scenario):
     """Readers of results need not check whether an outcome exists."""
-    fates = run(make_scenario()).fates
+    outcomes = run(make_scenario()).outcomes
     sent_to_one = ("unicast", "ack", "rts", "cts")
     kinds = {"broadcast", *sent_to_one, *(f"{kind} overheard" for kind in sent_to_one)}
-    assert fates["frames"].keys() == kinds
+    assert outcomes["frames"].keys() == kinds
     assert all(
         counts.keys() >= {"delivered", "preamble_undetected", "header_error", "captured"}
-        for counts in fates["frames"].values()
+        for counts in outcomes["frames"].values()
     )
-    assert fates["messages"]["unicast"]["channel_access_failure"] == 0
+    assert outcomes["messages"]["unicast"]["channel_access_failure"] == 0
 
 
 def test_position_at_the_end(make_scenario):
@@ -55,7 +55,7 @@ def test_geographic_coordinates_are_relative_to_the_scenes_origin(make_scenario)
 def test_the_same_seed_gives_the_same_run(make_scenario):
     first, again = run(make_scenario()), run(make_scenario())
     assert first.fingerprint == again.fingerprint
-    assert first.fates == again.fates
+    assert first.outcomes == again.outcomes
 
 
 def test_another_seed_gives_another_run(make_scenario):

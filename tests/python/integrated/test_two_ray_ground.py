@@ -75,7 +75,7 @@ def test_at_500_m_a_low_radio_hears_nothing(tmp_path: Path, settings: list[str],
     (tmp_path / "far.ini").write_text(FAR)
     (scenario,) = load_scenarios(tmp_path / "far.ini", overrides=settings)
     result = run(scenario)
-    assert result.fates["frames"]["broadcast"]["delivered"] == delivered
+    assert result.outcomes["frames"]["broadcast"]["delivered"] == delivered
 
 
 FAR = """

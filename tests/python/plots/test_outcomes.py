@@ -16,8 +16,8 @@ def losses(tmp_path: Path) -> Runs:
     """Return two runs of one value, and one run of another."""
     for run, (jitter, delivered, noise, far) in enumerate([(1, 6, 2, 8), (1, 3, 1, 12), (2, 10, 0, 6)]):
         counts = {"delivered": delivered, "noise": noise, "below_sensitivity": far, "in_air": 5}
-        fates = {"frames": {"broadcast": counts}}
-        write_result(tmp_path, run, iterations={"jitter": jitter}, fates=fates)
+        outcomes = {"frames": {"broadcast": counts}}
+        write_result(tmp_path, run, iterations={"jitter": jitter}, outcomes=outcomes)
     return runs(tmp_path)
 
 
@@ -62,7 +62,7 @@ def test_bars_are_stacked(axes: Axes, losses: Runs) -> None:
 
 def test_outcomes_have_different_looks(axes: Axes, tmp_path: Path) -> None:
     names = [f"outcome {number}" for number in range(14)]
-    write_result(tmp_path, fates={"frames": {"ack": dict.fromkeys(names, 1)}})
+    write_result(tmp_path, outcomes={"frames": {"ack": dict.fromkeys(names, 1)}})
     plots.outcomes(axes, runs(tmp_path), y="ack frames")
     looks = {(bar.patches[0].get_facecolor(), bar.patches[0].get_hatch()) for bar in axes.containers}
     assert len(looks) == len(names)

@@ -7,23 +7,23 @@ from gradysim.prototype.run import PrototypeRun, run
 from gradysim.simulator.handler.interface import INodeHandler
 
 
-def test_fates_count_what_was_sent(make_scenario):
-    fates = run(make_scenario()).fates
-    assert fates["messages"]["broadcast"] == {"sent": 40}
-    assert fates["frames"]["broadcast"]["delivered"] == 40
+def test_outcomes_count_what_was_sent(make_scenario):
+    outcomes = run(make_scenario()).outcomes
+    assert outcomes["messages"]["broadcast"] == {"sent": 40}
+    assert outcomes["frames"]["broadcast"]["delivered"] == 40
 
 
 @pytest.mark.parametrize(
-    ("setting", "fates"),
+    ("setting", "outcomes"),
     [
         ("*.communicationMedium.transmissionRange = 9m", (0, 40, 0, 0)),
         ("*.communicationMedium.failureRate = 1", (0, 0, 40, 0)),
         ("*.communicationMedium.delay = 0.1s", (38, 0, 0, 2)),
     ],
 )
-def test_the_medium_of_the_scenario_is_in_force(make_scenario, setting, fates):
+def test_the_medium_of_the_scenario_is_in_force(make_scenario, setting, outcomes):
     result = run(make_scenario("class Tested(Talker): pass", setting))
-    assert tuple(result.fates["frames"]["broadcast"].values()) == fates
+    assert tuple(result.outcomes["frames"]["broadcast"].values()) == outcomes
 
 
 def test_position_at_the_end(make_scenario):
@@ -67,7 +67,7 @@ def test_who_may_look_between_updates_finds_each_of_them(make_scenario, wall_clo
 def test_the_same_seed_gives_the_same_run(make_scenario):
     medium = "*.communicationMedium.failureRate = 0.5"
     first, again = (run(make_scenario("class Tested(Talker): pass", medium)) for _ in range(2))
-    assert (first.fates, first.nodes, first.events) == (again.fates, again.nodes, again.events)
+    assert (first.outcomes, first.nodes, first.events) == (again.outcomes, again.nodes, again.events)
 
 
 def test_the_compiled_part_is_not_needed():

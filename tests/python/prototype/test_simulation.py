@@ -235,7 +235,7 @@ def test_variables_that_the_protocol_took_when_it_was_made(make_scenario):
 @pytest.mark.parametrize("python", ["class Tested(Talker): pass", EARLY], ids=["late", "early"])
 def test_the_run_is_the_same(make_scenario, python):
     asked, unasked = (run(make_scenario(python), vectors_of=ids) for ids in ([0, 1], []))
-    assert (asked.fates, asked.events) == (unasked.fates, unasked.events)
+    assert (asked.outcomes, asked.events) == (unasked.outcomes, unasked.events)
     assert [node.tracked_variables for node in asked.nodes] == [
         node.tracked_variables for node in unasked.nodes
     ]

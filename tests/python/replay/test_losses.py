@@ -79,7 +79,7 @@ def test_only_what_a_busy_receiver_misses_has_no_numbers(make_hidden_senders, tm
     IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
     replay = read_replay(tmp_path / "run.html")
     explained = {(loss.frame, loss.receiver) for loss in replay.losses()}
-    outcomes = {fate for frame, node, fate in replay.receptions() if (frame, node) not in explained}
+    outcomes = {outcome for frame, node, outcome in replay.receptions() if (frame, node) not in explained}
     busy = {"receiver_transmitting", "receiver_locked", "captured"}
     assert {"receiver_locked"} <= outcomes <= busy | {"delivered", "in_air"}
     assert explained
@@ -112,7 +112,7 @@ def test_preambles_and_headers_have_what_they_need(make_hidden_senders, tmp_path
     scenario = make_hidden_senders("*.uavs[*].protocol.messages = 20", chunks, *lines)
     IntegratedRun(scenario, replay=ReplayWriter(tmp_path / "run.html")).execute()
     replay = read_replay(tmp_path / "run.html")
-    lost = {(frame, node) for frame, node, fate in replay.receptions() if fate == outcome}
+    lost = {(frame, node) for frame, node, found in replay.receptions() if found == outcome}
     found = [loss for loss in replay.losses() if (loss.frame, loss.receiver) in lost]
     assert found
     assert all(loss.needed < 10 and loss.sinr_db < loss.needed + 1 for loss in found)

@@ -51,16 +51,16 @@ def recorded(mode, make_scenario, tmp_path):
     return record(make_scenario(MOVING), mode, tmp_path / "run.html")
 
 
-def sums_of(fates):
+def sums_of(outcomes):
     sums = Counter()
-    for counts in fates.values():
+    for counts in outcomes.values():
         sums.update(counts)
     return {outcome: count for outcome, count in sums.items() if count and outcome != "in_air"}
 
 
 def test_its_outcomes_are_those_of_the_result(recorded):
     result, replay = recorded
-    assert replay.outcomes() == sums_of(result.fates["frames"])
+    assert replay.outcomes() == sums_of(result.outcomes["frames"])
 
 
 def test_a_recorded_run_is_the_same_run(mode, make_scenario, recorded):
@@ -125,7 +125,7 @@ def test_only_what_concerns_the_chosen_nodes(mode, make_scenario, tmp_path):
 def test_every_reception_of_an_example_has_its_outcome(file, config, overrides, tmp_path):
     scenario = load_scenarios(CONFIGS / file, config, overrides=overrides)[0]
     result, replay = record(scenario, "integrated", tmp_path / "run.html")
-    assert replay.outcomes() == sums_of(result.fates["frames"])
+    assert replay.outcomes() == sums_of(result.outcomes["frames"])
     lost = [r for r in replay.receptions() if r.outcome in ("interference", "noise")]
     losses = replay.table("losses")
     assert list(zip(losses["frame"], losses["receiver"], strict=True)) == [
@@ -140,7 +140,7 @@ def test_a_long_run_is_in_chunks_of_a_minute(mode, make_scenario, tmp_path):
     scenario = make_scenario(MOVING, "sim-time-limit = 200s")
     result, replay = record(scenario, mode, tmp_path / "run.html")
     assert [round(chunk.end_ns / 1e9) for chunk in replay.chunks] == [60, 120, 180, 200]
-    assert replay.outcomes() == sums_of(result.fates["frames"])
+    assert replay.outcomes() == sums_of(result.outcomes["frames"])
     for time_s in random.Random(1).choices(range(200), k=20):
         assert len(replay.positions(time_s)) == 2
 
@@ -156,9 +156,9 @@ def test_both_modes_write_the_declared_columns(make_scenario, mode, tmp_path):
 def test_the_engine_and_python_number_outcomes_and_kinds_alike(make_scenario):
     run = IntegratedRun(make_scenario())
     run.execute()
-    fates = run.result().fates["frames"]
-    assert tuple(fates["broadcast"]) == OUTCOMES[: len(fates["broadcast"])]
-    assert tuple(kind for kind in fates if "overheard" not in kind) == FRAME_KINDS
+    outcomes = run.result().outcomes["frames"]
+    assert tuple(outcomes["broadcast"]) == OUTCOMES[: len(outcomes["broadcast"])]
+    assert tuple(kind for kind in outcomes if "overheard" not in kind) == FRAME_KINDS
 
 
 def test_a_failed_run_keeps_its_replay(mode, make_scenario, tmp_path):

@@ -55,9 +55,9 @@ def test_a_variable_without_common_values_is_what_is_compared(tmp_path: Path) ->
 
 
 def test_a_quantity_of_one_side_alone_has_no_difference(tmp_path: Path) -> None:
-    fates = {"messages": {"unicast": {"delivered": 3, "lost": 1}}}
+    outcomes = {"messages": {"unicast": {"delivered": 3, "lost": 1}}}
     first = study(tmp_path / "a", {0: 1, 1: 2})
-    second = study(tmp_path / "b", {0: 1, 1: 2}, fates=fates)
+    second = study(tmp_path / "b", {0: 1, 1: 2}, outcomes=outcomes)
     change = pair_runs(first, second).changes("unicast messages delivered")[0]
     assert (change.pairs, change.first, change.difference) == (0, None, None)
     assert change.second == Estimate(0.75, 0.75, 0.75)
@@ -77,12 +77,12 @@ def test_an_event_has_exact_intervals_unless_another_value_has_more_than_one(tmp
 
 
 def test_losses_are_shares_of_receptions(tmp_path: Path) -> None:
-    def fates(noise: int, in_air: int) -> dict[str, object]:
+    def outcomes(noise: int, in_air: int) -> dict[str, object]:
         counts = {"delivered": 10 - noise, "noise": noise, "interference": 0, "in_air": in_air}
         return {"frames": {"broadcast": counts, "broadcast overheard": counts}}
 
-    first = study(tmp_path / "a", {0: 1, 1: 1}, fates=fates(1, 5))
-    second = study(tmp_path / "b", {0: 1, 1: 1}, fates=fates(3, 0))
+    first = study(tmp_path / "a", {0: 1, 1: 1}, outcomes=outcomes(1, 5))
+    second = study(tmp_path / "b", {0: 1, 1: 1}, outcomes=outcomes(3, 0))
     (loss,) = pair_runs(first, second).losses()
     assert loss.quantity == "broadcast frames noise"
     assert (loss.first, loss.second) == (Estimate(0.1, 0.1, 0.1), Estimate(0.3, 0.3, 0.3))

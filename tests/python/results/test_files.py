@@ -15,6 +15,10 @@ from gradysim.results.files import (
     write_run_file,
 )
 from gradysim.results.result import NodeResult, RunResult
+from gradysim.results.result_hash import result_hash
+
+EARLIER = pathlib.Path(__file__).with_name("earlier_names")
+"""A result that was written when outcomes were called fates."""
 
 RESULT = RunResult("ZigZag5", 3, 3, "integrated", 1.0, 0.1, 0.1, 10, False, "0123456789abcdef", {}, ())
 
@@ -127,8 +131,8 @@ def test_a_directory_that_cannot_be_made_is_an_error(tmp_path):
         write_run_file(RESULT, tmp_path / "taken")
 
 
-def is_done(scenario, mode, folder, fates_at=()):
-    return files_changed_since(scenario, mode, folder, fates_at) == ()
+def is_done(scenario, mode, folder, outcomes_at=()):
+    return files_changed_since(scenario, mode, folder, outcomes_at) == ()
 
 
 @pytest.fixture
@@ -201,17 +205,20 @@ def test_the_values_of_a_run_that_is_done_may_be_numbers_and_texts(done):
     assert is_done(dataclasses.replace(scenario, iterations=iterations), "integrated", folder)
 
 
-def test_a_result_without_the_fates_that_are_wanted_is_not_enough(done):
+def test_a_result_without_the_outcomes_that_are_wanted_is_not_enough(done):
     scenario, result, folder = done
     nodes = [
         NodeResult(
-            *(0, "uavs[0]", "Tested", (0.0, 0.0, 0.0), {}), frame_fates={}, interferers={}, message_fates={}
+            *(0, "uavs[0]", "Tested", (0.0, 0.0, 0.0), {}),
+            frame_outcomes={},
+            interferers={},
+            message_outcomes={},
         ),
         NodeResult(1, "uavs[1]", "Tested", (0.0, 0.0, 0.0), {}),
     ]
     write_run_file(dataclasses.replace(result, nodes=tuple(nodes)), folder)
-    assert is_done(scenario, "integrated", folder, fates_at=[0])
-    assert not is_done(scenario, "integrated", folder, fates_at=[0, 1])
+    assert is_done(scenario, "integrated", folder, outcomes_at=[0])
+    assert not is_done(scenario, "integrated", folder, outcomes_at=[0, 1])
 
 
 @pytest.mark.parametrize("content", [b"", b"[]", b"{}", b'{"run": ', b"\xff", b"[" * 99_999])
@@ -268,3 +275,21 @@ def test_a_folder_in_the_place_of_the_file_is_named_once(tmp_path):
     with pytest.raises(IsADirectoryError) as raised:
         write_run_file(RESULT, tmp_path)
     assert str(raised.value).count(str(taken)) == 1
+
+
+def test_a_file_of_an_earlier_version_has_the_names_of_now():
+    (file,) = EARLIER.iterdir()
+    result = read_run_file(file)
+    assert list(result)[10] == "outcomes"
+    assert result["outcomes"]["frames"]["broadcast"]["receiver_locked"] == 6
+    *others, station = result["nodes"]
+    assert station["frame_outcomes"] == {"broadcast": {"receiver_transmitting": 6}}
+    assert station["message_outcomes"] == {"wlan[0]": {"broadcast": {"sent": 29, "queued": 1}}}
+    assert not any("outcomes" in name for node in others for name in node)
+    assert "fates" not in json.dumps(result)
+
+
+def test_the_hash_in_a_file_of_an_earlier_version_is_still_that_of_its_content():
+    (file,) = EARLIER.iterdir()
+    result = read_run_file(file)
+    assert result_hash(result) == result["result_hash"]

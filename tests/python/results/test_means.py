@@ -27,7 +27,7 @@ def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> 
         "run": run,
         "interrupted": False,
         "iterations": {"jitter": "10ms"},
-        "fates": {},
+        "outcomes": {},
         "nodes": nodes,
         **changes,
     }
@@ -56,8 +56,8 @@ def test_an_event_of_all_runs_is_not_certain_unless_it_is_a_count(elsewhere: flo
 
 
 def test_a_share_of_all_frames_is_not_an_event() -> None:
-    fates = {"frames": {"broadcast": {"delivered": 100}}}
-    (mean,) = means([figures(run, (), fates=fates) for run in range(2)])
+    outcomes = {"frames": {"broadcast": {"delivered": 100}}}
+    (mean,) = means([figures(run, (), outcomes=outcomes) for run in range(2)])
     assert (mean.mean, mean.low, mean.high) == (1, 1, 1)
 
 
@@ -130,8 +130,8 @@ def unicast(acknowledged: int, queue_overflow: int) -> dict[str, Any]:
 def test_what_was_lost_in_other_runs_of_the_study_is_0() -> None:
     found = means(
         [
-            figures(0, (), fates=unicast(5, 0)),
-            figures(1, (), fates=unicast(1, 3), iterations={"jitter": "20ms"}),
+            figures(0, (), outcomes=unicast(5, 0)),
+            figures(1, (), outcomes=unicast(1, 3), iterations={"jitter": "20ms"}),
         ]
     )
     assert [(mean.quantity, mean.mean) for mean in found] == [
@@ -143,18 +143,18 @@ def test_what_was_lost_in_other_runs_of_the_study_is_0() -> None:
 
 
 def test_what_was_lost_in_no_run_takes_no_room() -> None:
-    assert quantities([figures(0, (), fates=unicast(5, 0))]) == {"unicast messages acknowledged": 1}
+    assert quantities([figures(0, (), outcomes=unicast(5, 0))]) == {"unicast messages acknowledged": 1}
 
 
 def test_that_no_message_arrived_is_told() -> None:
-    assert quantities([figures(0, (), fates=unicast(0, 2))]) == {
+    assert quantities([figures(0, (), outcomes=unicast(0, 2))]) == {
         "unicast messages acknowledged": 0,
         "unicast messages queue overflow": 1,
     }
 
 
 def test_runs_without_such_messages_do_not_count() -> None:
-    (mean,) = means([figures(0, (), fates=unicast(5, 0)), figures(1, (), fates=unicast(0, 0))])
+    (mean,) = means([figures(0, (), outcomes=unicast(5, 0)), figures(1, (), outcomes=unicast(0, 0))])
     assert (mean.mean, mean.runs) == (1, 1)
 
 
@@ -206,7 +206,7 @@ def test_runs_that_are_another_one_over_again_are_named(tmp_path: Path) -> None:
         {"settings_hash": "b"},
         {"fingerprint": "g"},
         {"heard": (1, 4)},
-        {"fates": {"messages": {}}},
+        {"outcomes": {"messages": {}}},
         {"mode": "prototype"},
         {"iterations": {"jitter": "20ms"}},
     ],

@@ -33,5 +33,5 @@ def test_frames_that_were_overheard_do_not_count() -> None:
 
 
 def test_of_what_nothing_was_decided_there_is_no_share() -> None:
-    fates = {"frames": {"unicast": {"delivered": 0, "in_air": 2}}, "messages": {"unicast": {"queued": 2}}}
-    assert ratios(fates) == {}
+    outcomes = {"frames": {"unicast": {"delivered": 0, "in_air": 2}}, "messages": {"unicast": {"queued": 2}}}
+    assert ratios(outcomes) == {}

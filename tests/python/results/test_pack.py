@@ -36,7 +36,7 @@ def result(run: int = 0, **changes: Any) -> dict[str, Any]:
         "settings_hash": "a1",
         "file_hashes": {"hello.py": "b2"},
         "iterations": {"jitter": "10ms"},
-        "fates": {"messages": {"unicast": {"acknowledged": 3, "retry_limit": 1}}},
+        "outcomes": {"messages": {"unicast": {"acknowledged": 3, "retry_limit": 1}}},
         "nodes": [
             {"name": "uavs[0]", "tracked_variables": {"heard": 1 + run, "late": "inf"}},
             {"name": "uavs[1]", "tracked_variables": {"heard": 3, "text": "a"}},

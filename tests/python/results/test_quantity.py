@@ -36,12 +36,12 @@ def test_paths_begin_with_the_name_of_the_network():
     assert {module for module, _ in named(RESULT, "Field")} == {"Field"}
 
 
-def test_fates_of_the_network():
-    fates = {
+def test_outcomes_of_the_network():
+    outcomes = {
         "frames": {"unicast overheard": {"below_sensitivity": 2}},
         "messages": {"unicast": {"retry_limit": 4}},
     }
-    told = named(dataclasses.replace(RESULT, fates=fates))
+    told = named(dataclasses.replace(RESULT, outcomes=outcomes))
     assert told["Network.radioMedium", "unicastOverheard:belowSensitivity:count"] == 2
     assert told["Network", "unicastMessage:retryLimit:count"] == 4
 
@@ -79,9 +79,9 @@ def test_a_variable_that_is_nan_is_told():
 def test_what_was_asked_for_of_a_node():
     told = of_node(
         frames_by_bitrate={5_500_000: 2, 54_000_000: 3},
-        frame_fates={"broadcast": {"receiver_locked": 4}},
+        frame_outcomes={"broadcast": {"receiver_locked": 4}},
         interferers={"uavs[1]": 6},
-        message_fates={"wlan[1]": {"unicast": {"retry_limit": 7}}},
+        message_outcomes={"wlan[1]": {"unicast": {"retry_limit": 7}}},
     )
     assert told["Network.uavs[0].wlan[1]", "unicastMessage:retryLimit:count"] == 7
     assert {name: value for (module, name), value in told.items() if module == "Network.uavs[0]"} == {
@@ -94,9 +94,9 @@ def test_what_was_asked_for_of_a_node():
 
 @pytest.mark.parametrize("name", ["positionX:last", "heard:last", "broadcast:delivered:count"])
 def test_names_say_how_the_number_was_made(name):
-    fates = {"frames": {"broadcast": {"delivered": 3}}}
+    outcomes = {"frames": {"broadcast": {"delivered": 3}}}
     node = dataclasses.replace(NODE, tracked_variables={"heard": 5})
-    result = dataclasses.replace(RESULT, nodes=(node,), fates=fates)
+    result = dataclasses.replace(RESULT, nodes=(node,), outcomes=outcomes)
     (scalar,) = (scalar for scalar in result.scalars("Network") if scalar.name == name)
     source, _, mode = name.rpartition(":")
     assert (scalar.attributes["source"], scalar.attributes["recordingmode"]) == (source, mode)

@@ -17,7 +17,7 @@ def test_a_column_has_the_numbers_of_the_runs_that_have_one(tmp_path: Path) -> N
 
 
 def test_a_share_is_not_binary(tmp_path: Path) -> None:
-    write_result(tmp_path, 0, (1,), fates={"messages": {"unicast": {"acknowledged": 1}}})
+    write_result(tmp_path, 0, (1,), outcomes={"messages": {"unicast": {"acknowledged": 1}}})
     table = QuantityTable(runs(tmp_path))
     share = "unicast messages acknowledged"
     assert table.shown() == {HEARD: "uavs[*]", share: None}

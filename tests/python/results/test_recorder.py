@@ -113,7 +113,7 @@ def test_ids_name_nodes():
 
 def test_ids_of_numpy_are_ids():
     numpy = pytest.importorskip("numpy")
-    (node_id,) = checked_ids("fates_at", [numpy.int64(1)], 2)
+    (node_id,) = checked_ids("outcomes_at", [numpy.int64(1)], 2)
     assert type(node_id) is int
 
 

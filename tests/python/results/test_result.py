@@ -20,7 +20,7 @@ def result_with(tracked_variables):
         events=1000,
         interrupted=False,
         fingerprint=None,
-        fates={"messages": {"broadcast": {"delivered": 3}}},
+        outcomes={"messages": {"broadcast": {"delivered": 3}}},
         nodes=(node,),
         repetition=1,
         iterations={"jitter": "10ms", "nodes": "5", "alpha": "2.5", "name": '"a"', "noise": "nan"},
@@ -42,7 +42,7 @@ def test_keys_and_values_that_scripts_rely_on():
         ("events", 1000),
         ("interrupted", False),
         ("fingerprint", None),
-        ("fates", {"messages": {"broadcast": {"delivered": 3}}}),
+        ("outcomes", {"messages": {"broadcast": {"delivered": 3}}}),
         ("message_delays", {}),
         ("repetition", 1),
         ("iterations", {"jitter": "10ms", "nodes": 5, "alpha": 2.5, "name": "a", "noise": "nan"}),
@@ -69,9 +69,9 @@ def test_every_field_of_a_node_is_told_but_its_vectors():
     node = NodeResult(
         *(0, "uavs[0]", "Mobile", (1.0, 2.0, 3.0), {"x": 1}),
         frames_by_bitrate={1: 2},
-        frame_fates={},
+        frame_outcomes={},
         interferers={},
-        message_fates={},
+        message_outcomes={},
         vectors=(),
     )
     given = {field.name for field in dataclasses.fields(node) if getattr(node, field.name) is not None}
@@ -103,17 +103,17 @@ def test_frames_by_bitrate_are_there_if_there_were_any():
     assert node.to_json_object()["frames_by_bitrate"] == {"24000000": 3, "6000000": 1}
 
 
-def test_fates_and_interferers_are_there_if_the_run_was_asked_for_them():
+def test_outcomes_and_interferers_are_there_if_the_run_was_asked_for_them():
     heard = {"broadcast": {"delivered": 3}}
     said = {"wlan[0]": {"broadcast": {"sent": 5}}, "wlan[1]": {}}
     node = NodeResult(
         *(0, "uavs[0]", "Mobile", (0.0, 0.0, 0.0), {}),
-        frame_fates=heard,
+        frame_outcomes=heard,
         interferers={},
-        message_fates=said,
+        message_outcomes=said,
     )
     told = node.to_json_object()
-    assert (told["frame_fates"], told["interferers"], told["message_fates"]) == (heard, {}, said)
+    assert (told["frame_outcomes"], told["interferers"], told["message_outcomes"]) == (heard, {}, said)
 
 
 def test_a_tracked_variable_without_a_json_form_is_given_as_repr():

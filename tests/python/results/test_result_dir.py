@@ -18,7 +18,7 @@ def result(run: int = 0, heard: tuple[object, ...] = (1, 3), **changes: Any) -> 
         "run": run,
         "interrupted": False,
         "iterations": {"jitter": "10ms"},
-        "fates": {},
+        "outcomes": {},
         "nodes": nodes,
         **changes,
     }

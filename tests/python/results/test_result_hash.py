@@ -20,7 +20,7 @@ RESULT = RunResult(
     events=1000,
     interrupted=False,
     fingerprint="f",
-    fates={"messages": {"broadcast": {"sent": 3}}},
+    outcomes={"messages": {"broadcast": {"sent": 3}}},
     nodes=(NODE,),
 )
 
@@ -34,7 +34,7 @@ def with_node(**changes: Any) -> RunResult:
     [
         dataclasses.replace(RESULT, sim_time_s=11.0),
         dataclasses.replace(RESULT, fingerprint="g"),
-        dataclasses.replace(RESULT, fates={"messages": {"broadcast": {"sent": 4}}}),
+        dataclasses.replace(RESULT, outcomes={"messages": {"broadcast": {"sent": 4}}}),
         dataclasses.replace(RESULT, message_delays={"unicast": constant_delays({0.5: 2})}),
         dataclasses.replace(RESULT, nodes=(NODE, NODE)),
         with_node(position=(1.0, 2.0, 3.0000000000000004)),
@@ -52,7 +52,7 @@ def test_whatever_the_run_computed_changes_it(other: RunResult) -> None:
         dataclasses.replace(RESULT, wall_s=9.0, cpu_s=9.0, setup_s=9.0),
         dataclasses.replace(RESULT, run=3, settings_hash="a"),
         with_node(protocol="MobileProtocol"),
-        with_node(frame_fates={}, interferers={}, message_fates={}, vectors=()),
+        with_node(frame_outcomes={}, interferers={}, message_outcomes={}, vectors=()),
     ],
 )
 def test_its_cost_its_names_and_what_was_asked_for_do_not(same: RunResult) -> None:

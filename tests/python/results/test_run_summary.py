@@ -12,7 +12,7 @@ def summary_of(*tracked: dict[str, Any], **changes: Any) -> RunSummary:
         "mode": "integrated",
         "run": 0,
         "iterations": {},
-        "fates": {},
+        "outcomes": {},
         "nodes": [
             {"name": f"uavs[{index}]", "tracked_variables": each} for index, each in enumerate(tracked)
         ],

@@ -36,9 +36,9 @@ def test_nodes_by_name(scenario, names, nodes):
 
 def test_an_unknown_name_says_what_there_is(scenario):
     with pytest.raises(ConfigError) as error:
-        check_node_names([scenario], ["groundstation"], "--fates-at", 1)
+        check_node_names([scenario], ["groundstation"], "--outcomes-at", 1)
     assert str(error.value) == (
-        "--fates-at groundstation: no such node; expected a node such as uavs[0],"
+        "--outcomes-at groundstation: no such node; expected a node such as uavs[0],"
         " a group (uavs, groundStation) or all; did you mean `groundStation`?"
     )
 

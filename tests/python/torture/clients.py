@@ -186,11 +186,11 @@ def once(random: Random, folder: Path) -> int:
 def assert_agrees(result: RunResult, undisturbed: RunResult) -> None:
     """Check that a run is the same, or its beginning if it was ended."""
     if not result.interrupted:
-        assert result.fates == undisturbed.fates
+        assert result.outcomes == undisturbed.outcomes
         assert [node.position for node in result.nodes] == [node.position for node in undisturbed.nodes]
         return
-    for kind, outcomes in result.fates["frames"].items():
-        in_full = undisturbed.fates["frames"][kind]
+    for kind, outcomes in result.outcomes["frames"].items():
+        in_full = undisturbed.outcomes["frames"][kind]
         assert all(count <= in_full[outcome] for outcome, count in outcomes.items() if outcome != "in_air")
 
 

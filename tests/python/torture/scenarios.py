@@ -52,8 +52,8 @@ def once(random: Random, folder: Path) -> int:
     result = run(scenario)
     assert result.result_hash == run(scenario).result_hash
     receivers = len(scenario.nodes) - 1
-    received = {kind: sum(outcomes.values()) for kind, outcomes in result.fates["frames"].items()}
-    messages = result.fates["messages"]["broadcast"]
+    received = {kind: sum(outcomes.values()) for kind, outcomes in result.outcomes["frames"].items()}
+    messages = result.outcomes["messages"]["broadcast"]
     # At the end, each node may have a frame in the air that is not counted as sent yet.
     assert received["broadcast"] % receivers == 0
     assert messages["sent"] <= received["broadcast"] // receivers <= messages["sent"] + len(scenario.nodes)

@@ -22,7 +22,7 @@ class Comparison:
 
     Attributes:
         differences: One line for each difference; empty if the two agree.
-        fates: Compared arrivals: those strong enough to be received.
+        outcomes: Compared arrivals: those strong enough to be received.
         receptions: Compared frames to which a radio was locked until the end.
         uncertain: Receptions decided by the random number.
         radios: Radios compared.
@@ -30,7 +30,7 @@ class Comparison:
     """
 
     differences: list[str]
-    fates: int
+    outcomes: int
     receptions: int
     uncertain: int
     radios: int
@@ -51,7 +51,7 @@ def compare(case: Case, run: EngineRun) -> Comparison:
     heard = [prediction.heard[index] for index in chosen]
     return Comparison(
         differences=[f"case {case.seed}, {line}" for line in differences],
-        fates=sum(one.fates.total() for one in heard),
+        outcomes=sum(one.outcomes.total() for one in heard),
         receptions=sum(len(one.receptions) for one in heard),
         uncertain=sum(one.uncertain for one in heard),
         radios=len(chosen),
@@ -62,8 +62,10 @@ def compare(case: Case, run: EngineRun) -> Comparison:
 def _differences_at(index: int, run: EngineRun, prediction: Prediction) -> list[str]:
     heard, noise_w = prediction.heard[index], prediction.noise_w[index]
     lines = []
-    if heard.fates != run.fates[index]:
-        lines.append(f"station {index}: fates {dict(run.fates[index])}, expected {dict(heard.fates)}")
+    if heard.outcomes != run.outcomes[index]:
+        lines.append(
+            f"station {index}: outcomes {dict(run.outcomes[index])}, expected {dict(heard.outcomes)}"
+        )
     pairs: Sequence[tuple[CapturedFrame | None, Reception | None]] = list(
         zip_longest(run.received[index], heard.receptions)
     )

@@ -23,7 +23,7 @@ class EngineRun:
 
     sent: list[list[CapturedFrame]]
     received: list[list[CapturedFrame]]
-    fates: list[Counter[tuple[str, str]]]
+    outcomes: list[Counter[tuple[str, str]]]
     """Receptions above the sensitivity, by (kind, outcome)."""
     below_sensitivity: int
     """Receptions of all kinds at all stations."""
@@ -49,8 +49,10 @@ def run_engine(case: Case, folder: Path) -> EngineRun:
         return EngineRun(
             sent=[[frame for frame in all_ if frame.signal_dbm is None] for all_ in frames],
             received=[[frame for frame in all_ if frame.signal_dbm is not None] for all_ in frames],
-            fates=[_counted(network.frame_fates_at(index)) for index in range(len(files))],
-            below_sensitivity=sum(fates["below_sensitivity"] for fates in network.frame_fates().values()),
+            outcomes=[_counted(network.frame_outcomes_at(index)) for index in range(len(files))],
+            below_sensitivity=sum(
+                outcomes["below_sensitivity"] for outcomes in network.frame_outcomes().values()
+            ),
             instants_ps=instants_ps,
         )
     finally:
@@ -97,9 +99,14 @@ def _instants(network: "Network") -> list[int]:
     return [round(instant_s * 1e12) for instant_s in instants_s]
 
 
-def _counted(fates: dict[str, dict[str, int]]) -> Counter[tuple[str, str]]:
+def _counted(outcomes: dict[str, dict[str, int]]) -> Counter[tuple[str, str]]:
     return Counter(
-        {(kind, fate): count for kind, counts in fates.items() for fate, count in counts.items() if count}
+        {
+            (kind, outcome): count
+            for kind, counts in outcomes.items()
+            for outcome, count in counts.items()
+            if count
+        }
     )
 
 

@@ -77,7 +77,7 @@ class Heard:
     """Everything received by one radio."""
 
     receptions: list[Reception] = field(default_factory=list)
-    fates: Counter[tuple[str, str]] = field(default_factory=Counter)
+    outcomes: Counter[tuple[str, str]] = field(default_factory=Counter)
     """Outcomes of arrivals that reach the sensitivity, by (kind, outcome)."""
     busy_ps: list[tuple[int, int]] = field(default_factory=list)
     """Start and end of each period in which the channel was busy."""
@@ -241,12 +241,12 @@ class Radio:
         )
         draw = self._draws.random()
         self.heard.uncertain += 0.01 < chance < 0.99
-        fate = "delivered" if draw < chance else "interference" if draw < undisturbed else "noise"
-        self._book(arrival, fate)
-        self.heard.receptions.append(Reception(arrival, fate == "delivered"))
+        outcome = "delivered" if draw < chance else "interference" if draw < undisturbed else "noise"
+        self._book(arrival, outcome)
+        self.heard.receptions.append(Reception(arrival, outcome == "delivered"))
 
-    def _book(self, arrival: Arrival, fate: str) -> None:
-        self.heard.fates[arrival.sent.kind, fate] += 1
+    def _book(self, arrival: Arrival, outcome: str) -> None:
+        self.heard.outcomes[arrival.sent.kind, outcome] += 1
 
     # Probabilities, with and without interference.
 

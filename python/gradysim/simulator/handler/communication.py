@@ -121,7 +121,7 @@ class DeliveryLedger:
         arrivals.waiting += 1
         return partial(arrivals.handled, now_s)
 
-    def message_fates(self) -> dict[str, dict[str, int]]:
+    def message_outcomes(self) -> dict[str, dict[str, int]]:
         """Return the outcomes of the messages so far: {kind: {outcome: count}}.
 
         A broadcast is "sent". A message to one node that arrived is "acknowledged", since nothing keeps an
@@ -137,7 +137,7 @@ class DeliveryLedger:
         """Return the delays of the deliveries so far: {kind: {delay in s: count}}."""
         return {name: _sums(self._counts[kind].delivered) for kind, name in KINDS.items()}
 
-    def frame_fates(self) -> dict[str, dict[str, int]]:
+    def frame_outcomes(self) -> dict[str, dict[str, int]]:
         """Return the outcomes of the deliveries so far: {kind: {outcome: count}}.
 
         "below_sensitivity" (beyond the range) and "lost" (by the medium's failure rate) are decided at

@@ -34,8 +34,8 @@ TEST_F(SaturatingSourceTest, BeginsWithinTheSpread) {
 
 TEST_F(SaturatingSourceTest, ItsQueueNeverRunsEmpty) {
     run("SaturatingSource", {{"destination", std::int64_t{1}}}, 1);
-    constexpr auto dropped = static_cast<std::size_t>(MessageFate::queue_overflow);
-    EXPECT_GT(network.message_fates().counts(MessageKind::unicast)[dropped], 0U);
+    constexpr auto dropped = static_cast<std::size_t>(MessageOutcome::queue_overflow);
+    EXPECT_GT(network.message_outcomes().counts(MessageKind::unicast)[dropped], 0U);
     // Only frame, ACK and waiting: more than 2 Mbps at the default rate of 6 Mbps or more.
     EXPECT_GT(other->packets.size() * 8000, 2e6);
 }

@@ -102,8 +102,8 @@ TEST_F(ZigZagMobileTest, BeforeItsLaunchItHearsNothing) {
     set_native_protocol(uav, "ZigZagMobileProtocol", {{"launch_interval", 100.0}});
     network.initialize();
     network.run_until(SimTime::from_seconds(50));
-    EXPECT_EQ(network.message_fates().counts(
-                  MessageKind::unicast)[static_cast<std::size_t>(MessageFate::acknowledged)],
+    EXPECT_EQ(network.message_outcomes().counts(
+                  MessageKind::unicast)[static_cast<std::size_t>(MessageOutcome::acknowledged)],
               1U);
     EXPECT_EQ(uav.tracked_variables().values().front(),
               (std::pair<std::string, TrackedValue>("data", std::int64_t{0})));

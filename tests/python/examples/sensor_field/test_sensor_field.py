@@ -28,7 +28,7 @@ def ground_station(result: RunResult) -> dict[str, object]:
 @pytest.mark.parametrize("config", ["Spread", "WithUavs"])
 def test_nearly_all_spread_reports_arrive(config: str) -> None:
     result = result_of(config)
-    messages = result.fates["messages"]["unicast"]
+    messages = result.outcomes["messages"]["unicast"]
     assert sum(messages.values()) >= SENSORS * 6
     assert ground_station(result)["sensors_heard"] == SENSORS
     assert messages["acknowledged"] >= 0.99 * sum(messages.values())
@@ -47,13 +47,13 @@ def test_scattered_reports_arrive() -> None:
 
 
 def test_synchronised_sensors_find_the_channel_busy() -> None:
-    messages = result_of("Synchronised").fates["messages"]["unicast"]
+    messages = result_of("Synchronised").outcomes["messages"]["unicast"]
     assert messages["channel_access_failure"] > 0.1 * sum(messages.values())
 
 
 def test_where_the_spectrum_is_shared_reports_are_disturbed() -> None:
     lost = [
-        result_of("SharedSpectrum", *overrides).fates["frames"]["unicast"]["interference"]
+        result_of("SharedSpectrum", *overrides).outcomes["frames"]["unicast"]["interference"]
         for overrides in ((), ("*.uavs[*].wlan[*].radio.centerFrequency = 2.412GHz",))
     ]
     assert lost[0] >= 5
@@ -63,7 +63,7 @@ def test_where_the_spectrum_is_shared_reports_are_disturbed() -> None:
 def test_the_gateway_hands_every_report_on() -> None:
     result = result_of("Gateway")
     assert ground_station(result)["sensors_heard"] == SENSORS
-    messages = result.fates["messages"]["unicast"]
+    messages = result.outcomes["messages"]["unicast"]
     assert messages["acknowledged"] >= 0.99 * sum(messages.values()) >= 2 * SENSORS * 6 * 0.99
 
 

@@ -51,8 +51,8 @@ def test_then_uavs_still_collect_the_readings_of_sensors() -> None:
 
 
 def test_the_ledger_says_why() -> None:
-    broadcast = fly("ZigZag5Synchronised").fates["frames"]["broadcast"]
-    others = [broadcast[fate] for fate in ("noise", "interference", "receiver_locked")]
+    broadcast = fly("ZigZag5Synchronised").outcomes["frames"]["broadcast"]
+    others = [broadcast[outcome] for outcome in ("noise", "interference", "receiver_locked")]
     assert broadcast["receiver_transmitting"] > sum(others)
 
 

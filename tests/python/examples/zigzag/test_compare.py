@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from compare import FATES, MODES, SCENARIOS, collected, comparison, frames_with
+from compare import MODES, OUTCOMES, SCENARIOS, collected, comparison, frames_with
 from gradysim.scenario import Scenario, load_scenarios
 
 
@@ -23,9 +23,9 @@ def test_what_the_ground_station_holds_is_collected(scenario: Scenario, mode: st
     assert collected(replace(result, nodes=(*result.nodes[:-1], station))) == 7
 
 
-def test_fates_are_those_of_the_ledger(scenario: Scenario) -> None:
-    fates = MODES["integrated"](scenario).fates
-    assert [fate for fate in FATES if frames_with(fate, fates) == "-"] == []
+def test_outcomes_are_those_of_the_ledger(scenario: Scenario) -> None:
+    outcomes = MODES["integrated"](scenario).outcomes
+    assert [outcome for outcome in OUTCOMES if frames_with(outcome, outcomes) == "-"] == []
 
 
 def test_acknowledgements_are_not_counted() -> None:
@@ -33,7 +33,7 @@ def test_acknowledgements_are_not_counted() -> None:
     assert frames_with("noise", {"frames": ledger}) == "1,002"
 
 
-def test_fates_that_a_mode_does_not_know_are_a_dash() -> None:
+def test_outcomes_that_a_mode_does_not_know_are_a_dash() -> None:
     assert frames_with("noise", {"frames": {"broadcast": {"lost": 1}, "unicast": {"lost": 1}}}) == "-"
 
 

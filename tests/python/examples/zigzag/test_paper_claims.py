@@ -42,8 +42,8 @@ class Flight:
 @cache
 def integrated(config: str, seed: int = 0) -> Flight:
     (scenario,) = load_scenarios(FILE, config, overrides=[f"seed-set = {seed}"])
-    result = run(scenario, fates_at=[scenario.nodes[-1].id])
-    heard = result.nodes[-1].frame_fates
+    result = run(scenario, outcomes_at=[scenario.nodes[-1].id])
+    heard = result.nodes[-1].frame_outcomes
     assert heard is not None
     return Flight(result, heard)
 
@@ -99,9 +99,9 @@ def test_nobody_gets_as_far_as_sending_the_ground_station_a_message(size: str) -
     assert "unicast" not in integrated(f"{size}Synchronised").heard
 
 
-@pytest.mark.parametrize("fate", ["receiver_transmitting", "interference"])
-def test_the_ledger_of_the_whole_network_says_why(fate: str) -> None:
-    assert integrated("ZigZag5Synchronised").result.fates["frames"]["broadcast"][fate] > 0
+@pytest.mark.parametrize("outcome", ["receiver_transmitting", "interference"])
+def test_the_ledger_of_the_whole_network_says_why(outcome: str) -> None:
+    assert integrated("ZigZag5Synchronised").result.outcomes["frames"]["broadcast"][outcome] > 0
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -49,7 +49,7 @@ def test_copies_of_a_broadcast():
     world = World([0, 10, 60, 61], CommunicationMedium(transmission_range=60))
     world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0])
     world.run()
-    assert world.ledger.frame_fates()["broadcast"] == {
+    assert world.ledger.frame_outcomes()["broadcast"] == {
         "delivered": 2,
         "below_sensitivity": 1,
         "lost": 0,
@@ -57,19 +57,19 @@ def test_copies_of_a_broadcast():
     }
 
 
-@pytest.mark.parametrize(("destination", "fate"), [(1, "delivered"), (2, "below_sensitivity")])
-def test_the_copy_of_a_message_to_one_node(destination, fate):
+@pytest.mark.parametrize(("destination", "outcome"), [(1, "delivered"), (2, "below_sensitivity")])
+def test_the_copy_of_a_message_to_one_node(destination, outcome):
     world = World([0, 10, 100], CommunicationMedium())
     world.network.handle_command(SendMessageCommand("a", destination), world.nodes[0])
     world.run()
-    fates = world.ledger.frame_fates()["unicast"]
-    assert {name: count for name, count in fates.items() if count} == {fate: 1}
+    outcomes = world.ledger.frame_outcomes()["unicast"]
+    assert {name: count for name, count in outcomes.items() if count} == {outcome: 1}
 
 
 def test_lost_copies_are_told_from_those_out_of_range():
     world = World([0, 10, 100], CommunicationMedium(failure_rate=1))
     world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0])
-    assert world.ledger.frame_fates()["broadcast"] == {
+    assert world.ledger.frame_outcomes()["broadcast"] == {
         "delivered": 0,
         "below_sensitivity": 1,
         "lost": 1,
@@ -81,9 +81,9 @@ def test_lost_copies_are_told_from_those_out_of_range():
 def test_a_copy_is_in_the_air_until_it_arrives(delay_s):
     world = World([0, 10], CommunicationMedium(delay=delay_s))
     world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0])
-    assert world.ledger.frame_fates()["broadcast"]["in_air"] == 1
+    assert world.ledger.frame_outcomes()["broadcast"]["in_air"] == 1
     world.run()
-    assert world.ledger.frame_fates()["broadcast"]["in_air"] == 0
+    assert world.ledger.frame_outcomes()["broadcast"]["in_air"] == 0
 
 
 def test_delays_are_of_those_that_arrived():
@@ -100,30 +100,30 @@ def test_a_medium_of_its_own():
     world = World([0, 10], CommunicationMedium())
     short = CommunicationMedium(transmission_range=5)
     world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0], short)
-    assert world.ledger.frame_fates()["broadcast"]["below_sensitivity"] == 1
+    assert world.ledger.frame_outcomes()["broadcast"]["below_sensitivity"] == 1
 
 
 def test_messages_are_counted_once():
     world = World([0, 10, 20], CommunicationMedium())
     world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0])
     world.network.handle_command(SendMessageCommand("b", 2), world.nodes[0])
-    fates = world.ledger.message_fates()
-    assert fates["broadcast"] == {"sent": 1}
-    assert fates["unicast"] == {"acknowledged": 0, "out_of_range": 0, "lost": 0, "in_air": 1}
+    outcomes = world.ledger.message_outcomes()
+    assert outcomes["broadcast"] == {"sent": 1}
+    assert outcomes["unicast"] == {"acknowledged": 0, "out_of_range": 0, "lost": 0, "in_air": 1}
 
 
 def test_a_message_that_is_refused_is_not_counted():
     world = World([0, 10], CommunicationMedium())
     with pytest.raises(CommunicationException):
         world.network.handle_command(SendMessageCommand("a", 7), world.nodes[0])
-    assert set(world.ledger.message_fates()["unicast"].values()) == {0}
+    assert set(world.ledger.message_outcomes()["unicast"].values()) == {0}
 
 
 def test_a_new_simulation_starts_a_new_ledger():
     world = World([0, 10], CommunicationMedium())
     world.network.handle_command(BroadcastMessageCommand("a"), world.nodes[0])
     world.network.inject(EventLoop())
-    assert world.ledger.message_fates()["broadcast"] == {"sent": 0}
+    assert world.ledger.message_outcomes()["broadcast"] == {"sent": 0}
 
 
 @given(
@@ -149,15 +149,15 @@ def test_the_sums_balance(positions_m, delay_s, failure_rate, sends):
         world.network.handle_command(command, world.nodes[sender])
     world.run(5)
     world.loop.advance_to(5)
-    fates = world.ledger.frame_fates()
-    assert {kind: sum(counts.values()) for kind, counts in fates.items()} == copies
-    assert sum(counts["delivered"] for counts in fates.values()) == world.received()
-    assert min(min(counts.values()) for counts in fates.values()) >= 0
+    outcomes = world.ledger.frame_outcomes()
+    assert {kind: sum(counts.values()) for kind, counts in outcomes.items()} == copies
+    assert sum(counts["delivered"] for counts in outcomes.values()) == world.received()
+    assert min(min(counts.values()) for counts in outcomes.values()) >= 0
 
 
 def test_what_is_sent_after_the_last_event_never_arrives():
     world = World([0, 10], CommunicationMedium())
     world.run()
     world.network.handle_command(SendMessageCommand("a", 1), world.nodes[0])
-    fates = world.ledger.frame_fates()["unicast"]
-    assert {name: count for name, count in fates.items() if count} == {"in_air": 1}
+    outcomes = world.ledger.frame_outcomes()["unicast"]
+    assert {name: count for name, count in outcomes.items() if count} == {"in_air": 1}

@@ -21,7 +21,7 @@
 
 namespace netsim {
 
-enum class FrameFate : std::uint8_t {
+enum class FrameOutcome : std::uint8_t {
     delivered,              // decoded by that radio, addressed to it or not
     below_sensitivity,      // below the sensitivity of that radio
     noise,                  // locked on and lost; would have been lost without interference
@@ -33,8 +33,8 @@ enum class FrameFate : std::uint8_t {
     captured,               // locked on, then dropped for a stronger frame: frame capture
     in_air,                 // no outcome yet: still on the air
 };
-constexpr std::size_t frame_fate_count = 10;
-constexpr std::array<const char*, frame_fate_count> frame_fate_names{
+constexpr std::size_t frame_outcome_count = 10;
+constexpr std::array<const char*, frame_outcome_count> frame_outcome_names{
     "delivered",       "below_sensitivity",   "noise",        "interference", "receiver_transmitting",
     "receiver_locked", "preamble_undetected", "header_error", "captured",     "in_air"};
 
@@ -44,10 +44,10 @@ struct CopyCount {
     std::uint64_t too_weak = 0;
 };
 
-class FrameFates {
+class FrameOutcomes {
 public:
     // [outcome]: number of receptions of one kind of frame.
-    using Counts = std::array<std::uint64_t, frame_fate_count>;
+    using Counts = std::array<std::uint64_t, frame_outcome_count>;
 
     void add_node() { interferers_.add_node(); }
 
@@ -56,15 +56,15 @@ public:
     FrameObserver* observer() const { return observer_; }
 
     // The reception of `label`'s frame at `receiver` ended.
-    void book(NodeId receiver, FrameLabel label, FrameFate fate);
+    void book(NodeId receiver, FrameLabel label, FrameOutcome outcome);
     // The same for a reception lost to interference by frames of `interferers` (nodes; each once).
     void book_interference(NodeId receiver, FrameLabel label, std::span<const NodeId> interferers);
     // A frame was transmitted, with these numbers of receptions.
     void book_transmission(FrameLabel label, CopyCount addressed, CopyCount overheard);
 
     // Prefetches the count of that outcome, which will be incremented soon.
-    void prefetch(NodeId receiver, FrameKind kind, FrameFate fate) const {
-        const Column& column = at_nodes_[index(kind)][index(fate)];
+    void prefetch(NodeId receiver, FrameKind kind, FrameOutcome outcome) const {
+        const Column& column = at_nodes_[index(kind)][index(outcome)];
         if (static_cast<std::size_t>(receiver) < column.size()) {
             netsim::prefetch(column[receiver]);
         }
@@ -92,12 +92,12 @@ private:
     };
 
     static constexpr std::size_t index(FrameKind kind) { return static_cast<std::size_t>(kind); }
-    static constexpr std::size_t index(FrameFate fate) { return static_cast<std::size_t>(fate); }
+    static constexpr std::size_t index(FrameOutcome outcome) { return static_cast<std::size_t>(outcome); }
 
     // [receiver]: number of receptions of one kind and one outcome. Empty if there are none.
     using Column = std::vector<std::uint64_t>;
     // [kind][outcome]. In this layout, a cache line has eight of the most used counts, `delivered`.
-    std::array<std::array<Column, frame_fate_count>, frame_kind_count> at_nodes_;
+    std::array<std::array<Column, frame_outcome_count>, frame_kind_count> at_nodes_;
     FrameObserver* observer_ = nullptr;
     Interferers interferers_;
     std::array<std::uint64_t, frame_kind_count> frames_{};

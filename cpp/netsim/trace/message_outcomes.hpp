@@ -15,7 +15,7 @@ enum class MessageKind : std::uint8_t { broadcast, unicast };
 constexpr std::size_t message_kind_count = 2;
 constexpr std::array<const char*, message_kind_count> message_kind_names{"broadcast", "unicast"};
 
-enum class MessageFate : std::uint8_t {
+enum class MessageOutcome : std::uint8_t {
     sent,                    // broadcast, or unicast without ACK: was on the air once
     acknowledged,            // unicast: the ACK came back
     retry_limit,             // unicast: dropped after the last retry
@@ -24,41 +24,41 @@ enum class MessageFate : std::uint8_t {
     channel_access_failure,  // 802.15.4: dropped, the channel was busy too often
     queued,                  // still waiting or in progress
 };
-constexpr std::size_t message_fate_count = 7;
-constexpr std::array<const char*, message_fate_count> message_fate_names{
+constexpr std::size_t message_outcome_count = 7;
+constexpr std::array<const char*, message_outcome_count> message_outcome_names{
     "sent",         "acknowledged",           "retry_limit", "queue_overflow",
     "out_of_range", "channel_access_failure", "queued"};
 
 // Counts of one interface.
-class MessageFates {
+class MessageOutcomes {
 public:
-    using Counts = std::array<std::uint64_t, message_fate_count>;
+    using Counts = std::array<std::uint64_t, message_outcome_count>;
 
     void accept(MessageKind kind) { ++accepted_[static_cast<std::size_t>(kind)]; }
-    void book(MessageKind kind, MessageFate fate) {
-        ++ended_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(fate)];
+    void book(MessageKind kind, MessageOutcome outcome) {
+        ++ended_[static_cast<std::size_t>(kind)][static_cast<std::size_t>(outcome)];
     }
 
     std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
     Counts counts(MessageKind kind) const;
 
 private:
-    static_assert(static_cast<std::size_t>(MessageFate::queued) == message_fate_count - 1);
+    static_assert(static_cast<std::size_t>(MessageOutcome::queued) == message_outcome_count - 1);
 
     // 32 bits: one more cache line per 802.11 interface makes large networks 2 % slower. Overflow,
     // after 4,294,967,295 messages, takes days of simulated time on a saturated channel.
     using Count = std::uint32_t;
     std::array<Count, message_kind_count> accepted_{};
     // All outcomes but queued.
-    std::array<std::array<Count, message_fate_count - 1>, message_kind_count> ended_{};
+    std::array<std::array<Count, message_outcome_count - 1>, message_kind_count> ended_{};
 };
 
 // Sums over several interfaces.
-class MessageFateSums {
+class MessageOutcomeSums {
 public:
-    using Counts = MessageFates::Counts;
+    using Counts = MessageOutcomes::Counts;
 
-    void add(const MessageFates& fates);
+    void add(const MessageOutcomes& outcomes);
 
     std::uint64_t accepted(MessageKind kind) const { return accepted_[static_cast<std::size_t>(kind)]; }
     const Counts& counts(MessageKind kind) const { return counts_[static_cast<std::size_t>(kind)]; }
