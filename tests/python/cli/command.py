@@ -4,6 +4,7 @@ import contextlib
 import io
 import json
 import os
+import re
 import resource
 import signal
 import subprocess
@@ -158,6 +159,12 @@ def disk_of(size: int) -> Iterator[None]:
 def objects(output: str) -> list[dict]:
     """Return the JSON objects of an output, one per line."""
     return [json.loads(line) for line in output.splitlines()]
+
+
+def deaths(error_output: str) -> dict[int, str]:
+    """Return the last word about each run whose process died: its status, its signal or its limit."""
+    lines = re.findall(r"^\w+ run (\d+): .* (\S+)$", error_output, re.MULTILINE)
+    return {int(run): word for run, word in lines}
 
 
 def interrupt_endless_run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:

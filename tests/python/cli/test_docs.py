@@ -33,7 +33,7 @@ def test_pages_with_a_word_in_their_text_are_listed(gradysim):
 def test_a_misspelled_name_is_answered_with_the_nearest(gradysim):
     done = gradysim("docs", "fly-a-misson")
     assert (done.returncode, done.stdout) == (2, "")
-    assert "did you mean `fly-a-mission`?" in done.stderr
+    assert "`fly-a-mission`" in done.stderr
 
 
 def test_what_only_the_site_understands_is_left_out(gradysim):

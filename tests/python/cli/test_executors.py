@@ -82,7 +82,7 @@ def test_dask_is_an_extra(folder: Path) -> None:
     options = ("--mode", "prototype", "--executor", "dask", "--scheduler", "tcp://a:1")
     done = run_without("distributed", folder, "run", "test.ini", *options)
     assert (done.returncode, done.stdout) == (2, "")
-    assert "pip install distributed " in done.stderr
+    assert "pip" in done.stderr
 
 
 @contextlib.contextmanager

