@@ -166,8 +166,8 @@ fingerprints: build  ## Rewrite the fingerprints of the examples; tests/fingerpr
 pages: build $(STAMPS)/test system-tshark  ## Rewrite the output that pages show; some: ONLY='tests/python/house/test_run_a_study.py'.
 	REWRITE_PAGES=1 $(BIN)/python -m pytest -m 'not autopilot' --numprocesses=$(WORKERS) --dist=loadfile $(or $(ONLY),tests/python/house)
 
-golden: build $(STAMPS)/test  ## Rewrite tests/golden/messages.txt: the messages about mistakes in scenarios.
-	REWRITE_GOLDEN=1 $(BIN)/python -m pytest -q tests/python/scenario/test_messages.py
+golden: build $(STAMPS)/test  ## Rewrite tests/golden: the messages about mistakes in scenarios and commands.
+	REWRITE_GOLDEN=1 $(BIN)/python -m pytest -q tests/python/scenario/test_messages.py tests/python/cli/test_mistakes.py
 
 wheels: $(STAMPS)/build $(STAMPS)/wheels $(STAMPS)/test system-qemu  ## Build wheels for x86-64 and aarch64 and the source distribution into dist, and test them.
 	$(BIN)/python packaging/build_wheels.py

@@ -61,7 +61,7 @@ def test_an_interface_that_is_not_the_first_is_named() -> None:
 
 
 def test_a_sensitivity_that_decides_is_told() -> None:
-    assert "sensitivity of -90 dBm" in text_of_calibration(calibration(deciding_sensitivity_w=1e-12))
+    assert "-90 dBm" in text_of_calibration(calibration(deciding_sensitivity_w=1e-12))
     assert "sensitivity" not in text_of_calibration(calibration())
 
 

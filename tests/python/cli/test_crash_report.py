@@ -59,7 +59,7 @@ def test_notes_are_printed():
     failure.add_note("in handle_timer of node 3")
     text = StringIO()
     print_failure(failure, text)
-    assert text.getvalue().splitlines()[0] == "Traceback (most recent call last):"
+    assert text.getvalue().startswith("Traceback ")
     assert text.getvalue().splitlines()[-2:] == ["RuntimeError: spoilt", "in handle_timer of node 3"]
     assert OURS not in text.getvalue()
 
@@ -68,10 +68,10 @@ def test_notes_are_printed():
 def test_a_refused_command_ends_at_the_users_line(kind):
     failure = failure_through(OURS, USER, OURS)
     text = StringIO()
-    print_failure(kind("to nobody").with_traceback(failure.__traceback__), text)
+    print_failure(kind("spoilt").with_traceback(failure.__traceback__), text)
     assert USER in text.getvalue()
     assert OURS not in text.getvalue()
-    assert text.getvalue().endswith("to nobody\n")
+    assert text.getvalue().endswith("spoilt\n")
 
 
 def test_a_refused_command_of_our_own_is_shown_whole():

@@ -20,7 +20,7 @@ def test_keys_are_paragraphs_on_a_terminal():
 
     with contextlib.redirect_stdout(Terminal()) as shown:
         assert main(["keys", "mobility.speed"]) == 0
-    assert "mobility.speed\x1b[0m\n    mps; default: " in shown.getvalue()
+    assert "mobility.speed\x1b[0m\n    mps; " in shown.getvalue()
 
 
 def test_keys_are_a_page_in_markdown_if_it_is_asked_for(gradysim):

@@ -1,9 +1,13 @@
 """Messages about errors of the user."""
 
+import shlex
+import textwrap
+
 import pytest
 
 from gradysim.integrated import network
 from python.cli.command import LINE_OF_THE_WRONG_KEY, both_modes, compiled, run_without
+from python.golden import check_golden
 
 
 def test_a_wrong_key_is_named_with_its_place(gradysim):
@@ -52,101 +56,67 @@ def test_a_single_network_is_not_built_before_its_run(gradysim, monkeypatch, run
     assert len(built) == checked
 
 
-@pytest.mark.parametrize(
-    "arguments",
-    [
-        ["run"],
-        ["run", "missing.ini"],
-        ["run", "test.ini", "--mode", "other"],
-        ["run", "test.ini", "-c", "Missing"],
-        ["run", "test.ini", "-r", "x"],
-        ["run", "test.ini", "-r", "7"],
-        ["run", "test.ini", "--set", "nonsense"],
-        ["run", "test.ini", "--nonsense"],
-        ["run", "test.ini", "--result-dir", "test.ini"],
-        ["runs", "missing.ini"],
-        ["nonsense"],
-    ],
-)
-def test_wrong_arguments(gradysim, arguments):
-    done = gradysim(*arguments)
-    assert done.returncode == 2
-    assert done.stderr != ""
-    assert "Traceback" not in done.stderr
-    assert done.stdout == ""
-
-
-@pytest.mark.parametrize(
-    ("arguments", "text"),
-    [
-        (["run", "test.ini", "First"], "First is one argument too many; expected an option before it"),
-        (["run", "test.ini", "First"], "gradysim run --help"),
-        (["run", "test.ini", "--set", "a=1", "*.n[*].b=2"], "*.n[*].b=2 is one argument too many"),
-        (["run", "test.ini", "--set", "a=1", "*.n[*].b=2"], "expected --set before each KEY=VALUE"),
-    ],
-)
-def test_an_argument_that_nothing_takes_is_named_with_what_is_missing(gradysim, arguments, text):
-    done = gradysim(*arguments)
-    assert done.returncode == 2
-    assert text in " ".join(done.stderr.replace("│", "").split())
-
-
-@pytest.mark.parametrize("option", ["--seed", "--jobs"])
-@pytest.mark.parametrize("value", ["1.5", "1e3", "two"])
-def test_a_number_that_is_not_whole_is_not_rounded(gradysim, option, value):
-    done = gradysim("run", "test.ini", "--mode", "prototype", option, value)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert f"{option}: {value} " in done.stderr
+COMMANDS = [
+    "new",
+    "nonsense",
+    "run",
+    "run missing.ini",
+    "run test.ini First",
+    "run test.ini --nonsense",
+    "run test.ini --mode other",
+    "run test.ini -c Missing",
+    "run test.ini -r x",
+    "run test.ini -r 7",
+    "run test.ini --set nonsense",
+    "run test.ini --set a=1 *.n[*].b=2",
+    "run test.ini --result-dir test.ini",
+    "run test.ini --seed 1.5",
+    "run test.ini --seed 9223372036854775806",
+    "run test.ini --jobs two",
+    "run test.ini --jobs 1e3",
+    "run test.ini --jobs 0",
+    "run test.ini --memory 2",
+    "run test.ini --share 4/3",
+    "run test.ini --stop-after 5",
+    "run test.ini --trace uavs[7]",
+    "run test.ini --pcap uavs[7]",
+    "run test.ini --pcap all --mode prototype",
+    "run test.ini --outcomes-at all --mode prototype",
+    "run test.ini --resume",
+    "run test.ini --until 'ci(uavs[*] said) < 5%'",
+    "runs missing.ini",
+    "status nowhere test.ini",
+    "verify nowhere",
+    "pack nowhere",
+    "means test.ini",
+    "keys sensitivty",
+    "docs fly-a-misson",
+    "import missing.ini",
+    "bisect test.ini --assert 'uavs[*] said'",
+    "calibrate test.ini --range -5m",
+    "calibrate test.ini --range 0m",
+    "calibrate test.ini --range 50kmm",
+    "calibrate test.ini --range 5s",
+    "calibrate test.ini --range 50m --ratio 90",
+    "calibrate test.ini --range 50m --ratio 100",
+    "calibrate test.ini --range 50m --ratio 1",
+    "calibrate test.ini --range 50m --ratio 0",
+    "calibrate test.ini --range 50m --message -5B",
+    "calibrate test.ini --range 50m --message 50.4B",
+    "calibrate test.ini --range 50m --sender uavs",
+]
+"""Commands that are refused. `make golden` writes their messages to `tests/golden/commands.txt`."""
 
 
 @compiled
-@pytest.mark.parametrize(
-    ("arguments", "refusal"),
-    [
-        (
-            ["--range", "-5m"],
-            "--range -5m: it is out of range; expected a length such as 50m, greater than 0m",
-        ),
-        (["--range", "0m"], "--range 0m: it is out of range; expected a length such as 50m, greater than 0m"),
-        (
-            ["--range", "50m", "--ratio", "90"],
-            "--ratio 90: it is out of range; expected more than 0 and less than 1; did you mean 0.9?",
-        ),
-        (
-            ["--range", "50m", "--ratio", "100"],
-            "--ratio 100: it is out of range; expected more than 0 and less than 1",
-        ),
-        (
-            ["--range", "50m", "--ratio", "1"],
-            "--ratio 1: it is out of range; expected more than 0 and less than 1",
-        ),
-        (
-            ["--range", "50m", "--ratio", "0"],
-            "--ratio 0: it is out of range; expected more than 0 and less than 1",
-        ),
-        (
-            ["--range", "50m", "--message", "-5B"],
-            "--message -5B: it is out of range; expected a size such as 100B, at least 0B",
-        ),
-        (
-            ["--range", "50m", "--message", "50.4B"],
-            "--message 50.4B: `50.4B` is not an integer number of bytes;"
-            " expected a size such as 100B, at least 0B",
-        ),
-        (
-            ["--range", "50kmm"],
-            "--range 50kmm: there is no unit `kmm`; expected a length such as 50m, greater than 0m;"
-            " did you mean `mm`?",
-        ),
-        (
-            ["--range", "5s"],
-            "--range 5s: `s` is the unit of a time; expected a length such as 50m, greater than 0m",
-        ),
-    ],
-)
-def test_a_quantity_of_calibrate_is_refused_for_what_it_is(gradysim, arguments, refusal):
-    done = gradysim("calibrate", "test.ini", *arguments)
-    assert (done.returncode, done.stdout, done.stderr.strip()) == (2, "", refusal)
+def test_messages_are_those_of_the_golden_file(gradysim):
+    told = ""
+    for command in COMMANDS:
+        done = gradysim(*shlex.split(command))
+        assert (done.returncode, done.stdout) == (2, ""), command
+        told += f"gradysim {command}\n{textwrap.indent(done.stderr, '    ')}\n"
+    assert "Traceback" not in told
+    check_golden("commands.txt", told)
 
 
 @compiled

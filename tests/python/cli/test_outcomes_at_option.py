@@ -63,14 +63,11 @@ def test_a_node_that_only_some_runs_have(gradysim, folder):
 def test_a_wrong_node(gradysim):
     done = gradysim("run", "test.ini", "--outcomes-at", "uavs[7]")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.startswith(
-        "--outcomes-at uavs[7]: no such node in any of the runs; expected a node such as"
-    )
+    assert done.stderr.startswith("--outcomes-at uavs[7]: ")
 
 
 def test_prototype_mode_has_no_frames(gradysim):
     done = gradysim("run", "test.ini", "--mode", "prototype", "--outcomes-at", "all")
     assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr == (
-        "--outcomes-at all: prototype mode has no outcomes of frames; expected --mode integrated\n"
-    )
+    assert done.stderr.startswith("--outcomes-at all: ")
+    assert "--mode integrated" in done.stderr

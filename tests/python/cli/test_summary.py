@@ -334,7 +334,7 @@ def test_outcomes_at_nodes_are_there_if_the_run_was_asked_for_them():
     assert ["uavs[0]", "broadcast", "2", "1"] in lines
     assert ["uavs[0]", "1", "uavs[0]", "1"] in lines
     assert ["uavs[0]", "unicast", "4"] in lines
-    assert "at nodes" not in printed()
+    assert "frames at" not in printed()
 
 
 @pytest.mark.parametrize(("kind", "told"), [("unicast", True), ("broadcast", False)])

@@ -168,7 +168,7 @@ def test_an_exception_in_a_protocol_comes_out_with_its_place(make_run):
 def test_the_callback_is_named(make_run, callback):
     with pytest.raises(ZeroDivisionError) as failure:
         make_run(f"class Tested(Quiet):\n    def {callback}(self): 1 / 0").execute()
-    assert failure.value.__notes__[0].startswith(f"in {callback} of ")
+    assert failure.value.__notes__[0].startswith(f"in {callback} ")
 
 
 def test_a_protocol_that_cannot_be_made_is_named(make_run):

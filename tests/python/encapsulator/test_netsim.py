@@ -248,7 +248,7 @@ def test_an_interrupt_gets_a_note():
 
     with pytest.raises(KeyboardInterrupt) as interrupt:
         Pair(initialize=initialize).run()
-    assert "in initialize " in interrupt.value.__notes__[0]
+    assert " initialize " in interrupt.value.__notes__[0]
 
 
 def test_the_encapsulator_calls_the_protocol():

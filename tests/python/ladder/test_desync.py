@@ -77,7 +77,7 @@ def test_timers_that_differ_in_numbers_get_one_jitter(make_campaign: Callable[..
     found = desynchronize(make_campaign("**.protocol.timer=beat-#"))
     assert found.timers == (("nodes[*]", "beat-#"),)
     assert found.jitter_s
-    assert 'timer "beat-#" of nodes[*] ' in "\n".join(desync_sentences(found))
+    assert '"beat-#" of nodes[*] ' in "\n".join(desync_sentences(found))
 
 
 def test_a_jitter_that_saves_little_is_not_recommended(make_campaign: Callable[..., Campaign]) -> None:

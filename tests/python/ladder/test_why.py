@@ -35,7 +35,7 @@ def test_losses_to_other_frames(explanation_of: Callable[..., tuple[Explanation,
     assert (found.first.time_s, found.first.event.cause) == (1, "timer beacon")
     assert found.first.outcomes == ("delivered", "receiver_transmitting")
     assert "`receiver transmitting`: 100.0% " in text
-    assert 'timer "beacon" from nodes[' in text
+    assert '"beacon" from nodes[' in text
 
 
 def test_receptions_out_of_range(explanation_of: Callable[..., tuple[Explanation, str]]) -> None:

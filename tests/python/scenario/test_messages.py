@@ -4,14 +4,11 @@ To add a case, add its text to a table below, run `make golden` and read the cha
 `tests/golden/messages.txt`. All other tests check the attributes of errors, not their wording.
 """
 
-import os
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 from gradysim.scenario import ConfigError, load_scenarios
-
-GOLDEN = Path(__file__).parents[2] / "golden" / "messages.txt"
+from python.golden import check_golden
 
 LINES = [
     "*.uavz[*].mobility.speed = 1",
@@ -193,8 +190,4 @@ def message(folder: Any, text: str, **arguments: Any) -> str:
 
 
 def test_messages_are_those_of_the_golden_file(folder: Any) -> None:
-    text = "\n".join(messages(folder))
-    if os.environ.get("REWRITE_GOLDEN"):
-        GOLDEN.parent.mkdir(exist_ok=True)
-        GOLDEN.write_text(text, encoding="utf-8")
-    assert text == GOLDEN.read_text(encoding="utf-8"), "run `make golden` and read the change"
+    check_golden("messages.txt", "\n".join(messages(folder)))

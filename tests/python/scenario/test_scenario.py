@@ -12,5 +12,5 @@ def test_a_script_may_not_replace_the_time_limit_by_none(folder: Any, wrong: Any
 
 def test_a_script_may_not_leave_a_gap_in_the_ids_of_nodes(folder: Any) -> None:
     scenario = folder.load()
-    with pytest.raises(ValueError, match=r"^nodes: uavs\[1\], .* 1, .* id 2; "):
+    with pytest.raises(ValueError, match=r"^nodes: uavs\[1\], .* 1, .* 2; "):
         replace(scenario, nodes=scenario.nodes[::2])

@@ -75,7 +75,7 @@ def test_of_a_list_of_values_the_wrong_one_is_named() -> None:
     with pytest.raises(ConfigError) as caught:
         read_scalar(of_this_run, SPEED)
     assert (caught.value.line, caught.value.expected) == (7, SPEED.expected)
-    assert caught.value.problem.startswith("*.x.y = ${v=3mps, -3mps}: that is -3mps: ")
+    assert " -3mps: " in caught.value.problem
 
 
 @pytest.mark.parametrize(

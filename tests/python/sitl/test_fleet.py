@@ -83,7 +83,7 @@ def test_an_autopilot_that_does_not_connect_is_told(tmp_path):
     program.write_text('#!/bin/sh\n[ "$1" = --help ] || exec sleep 60\n')
     program.chmod(0o755)
     fleet = new_fleet(program)
-    with pytest.raises(SitlError, match=r"^vehicle 0: start: .*0.1 s$"):
+    with pytest.raises(SitlError, match=r"^vehicle 0: .*0\.1 s$"):
         asyncio.run(launched(fleet, timeout_s=0.1))
     fleet.close()
 
