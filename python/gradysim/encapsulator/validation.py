@@ -12,6 +12,7 @@ import math
 from collections.abc import Collection, Mapping
 from difflib import get_close_matches
 from enum import Enum
+from functools import cache
 from typing import Any
 
 from gradysim.protocol.defaults import MOST_INTERFACES
@@ -279,7 +280,12 @@ def _parameters(command: Any) -> str:
 
 def _is_member(kinds: type[Enum], kind: object) -> bool:
     """Return whether `kind` is the number of a member. It must be an int: 1.0 is not a member."""
-    return isinstance(kind, int) and kind in {known.value for known in kinds}
+    return isinstance(kind, int) and kind in _values_of(kinds)
+
+
+@cache
+def _values_of(kinds: type[Enum]) -> frozenset[object]:
+    return frozenset(known.value for known in kinds)
 
 
 def _listed(kinds: type[Enum]) -> str:

@@ -29,7 +29,7 @@ def configuration_or_default(plugin: object, given: T | None, kind: type[T]) -> 
 def time_of(provider: Any) -> float:
     """Return the current time in seconds; 0 if the provider has no clock."""
     now = provider.current_time() if hasattr(provider, "current_time") else 0.0
-    return float(now) if isinstance(now, Real) else 0.0
+    return float(now) if isinstance(now, (float, Real)) else 0.0
 
 
 def stream_of(provider: Any) -> Random:

@@ -5,6 +5,7 @@ with `FOLLOWER_TAG:id`, to its leader alone.
 """
 
 import json
+from functools import lru_cache
 from typing import NamedTuple
 
 from gradysim.protocol.checked_values import checked_number, checked_point
@@ -36,6 +37,7 @@ def encode_leader(state: LeaderState) -> str:
     return LEADER_PREFIX + json.dumps(state._asdict())
 
 
+@lru_cache(maxsize=64)  # all followers decode the same broadcast
 def decode_leader(message: str) -> LeaderState:
     """Return the state in the broadcast of a leader. A missing orientation is 0.
 

@@ -164,9 +164,9 @@ def parse_message(text: str) -> RaftMessage:
             f"unknown type of message {content.get('type')!r}, expected one of {', '.join(_TYPES)}"
         )
     arguments = {
-        each.name: _read(content, each.name, each.type)
-        for each in _FIELDS[message_type]
-        if each.name in content
+        name: _read(content, name, check, expected)
+        for name, (check, expected) in _CHECKS_OF_FIELDS[message_type].items()
+        if name in content
     }
     try:
         return message_type(**arguments)
@@ -184,9 +184,8 @@ def _content_of(text: str) -> Mapping[str, Any]:
     return content
 
 
-def _read(content: Mapping[str, Any], name: str, kind: Any) -> Any:
+def _read(content: Mapping[str, Any], name: str, check: Callable[[Any], bool], expected: str) -> Any:
     value = content[name]
-    check, expected = _CHECKS[kind]
     if not check(value):
         raise ValueError(f"{name} of a {content['type']} must be {expected}, got {value!r}")
     return [Entry(*entry) for entry in value] if name == "entries" else value
@@ -197,7 +196,7 @@ def _is_natural(value: object) -> bool:
 
 
 def _is_ids(value: object) -> bool:
-    return isinstance(value, list) and all(map(_is_natural, value))
+    return isinstance(value, list) and {*map(type, value)} <= {int} and min(value, default=0) >= 0
 
 
 def _is_entry(value: object) -> bool:
@@ -224,7 +223,10 @@ _CHECKS: Mapping[Any, tuple[Callable[[Any], bool], str]] = {
 """Check and description of the valid values, for each type of field."""
 
 _TYPES: dict[str, type[RaftMessage]] = {kind.__name__: kind for kind in RaftMessage.__subclasses__()}
-_FIELDS = {message_type: fields(message_type) for message_type in _TYPES.values()}
+_CHECKS_OF_FIELDS = {
+    message_type: {each.name: _CHECKS[each.type] for each in fields(message_type)}
+    for message_type in _TYPES.values()
+}
 
 
 class MessageFactory:
