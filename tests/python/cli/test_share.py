@@ -82,7 +82,7 @@ def test_a_share_follows_from_the_environment(given, environment, share):
         ("-1/3", {}, "I/N"),
         ("auto", {}, "SLURM_ARRAY_TASK_ID"),
         ("auto", {"PBS_ARRAY_INDEX": "3"}, "--share auto/N"),
-        ("auto", {**SLURM, "SLURM_ARRAY_TASK_COUNT": "2"}, "the 2 tasks"),
+        ("auto", {**SLURM, "SLURM_ARRAY_TASK_COUNT": "2"}, " 2 tasks"),
         ("auto", {**SLURM, "SLURM_ARRAY_TASK_MIN": "x"}, "SLURM_ARRAY_TASK_MIN is `x`"),
         ("auto", {"OMPI_COMM_WORLD_RANK": "3"}, "OMPI_COMM_WORLD_SIZE is ``"),
     ],

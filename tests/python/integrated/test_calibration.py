@@ -152,19 +152,13 @@ def test_interfaces_of_different_channels_are_told_with_one_to_try() -> None:
 @pytest.mark.parametrize(
     ("options", "text"),
     [
-        (
-            {"sender": "sender.wlan[1]"},
-            r"`sender.wlan\[1\]` cannot be the sender: .* interface; expected .* of sender, wlan\[0\]$",
-        ),
-        ({"sender": "reciever"}, "`reciever` cannot be the sender: .* such node; .* did you mean `receivers"),
-        ({"receiver": "sender"}, "`sender` cannot be the receiver: it is the sender; expected two nodes"),
-        ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` cannot be the receiver"),
-        ({"range_m": 0.0}, "range_m = 0 m: expected more than 0 m"),
-        ({"ratio": 1.0}, "ratio = 1: expected more than 0 and less than 1"),
-        (
-            {"message_bytes": 3000},
-            r"a message of 3000B is too long: .* 2276B, which wlan\[\*\]\.mac\.mtu = 2304B",
-        ),
+        ({"sender": "sender.wlan[1]"}, r"`sender.wlan\[1\]` .* interface; .* wlan\[0\]$"),
+        ({"sender": "reciever"}, "`reciever` .* `receivers"),
+        ({"receiver": "sender"}, "^`sender` .* receiver:"),
+        ({"sender": "receivers[0]", "receiver": "receivers[0]"}, r"`receivers\[0\]` .* receiver:"),
+        ({"range_m": 0.0}, "range_m = 0 m: "),
+        ({"ratio": 1.0}, "ratio = 1: "),
+        ({"message_bytes": 3000}, r" 3000B .* 2276B, .* wlan\[\*\]\.mac\.mtu = 2304B"),
     ],
 )
 def test_a_mistake_is_named(options: dict[str, object], text: str) -> None:

@@ -27,14 +27,14 @@ def key_of(line: str) -> str:
 @pytest.mark.parametrize(
     ("lines", "wrong", "text"),
     [
-        ([CHANNEL], "*.uavs[*].wlan[1].bitrate = 7Mbps", "bitrate=7Mbps: expected a bitrate of g(mixed)"),
+        ([CHANNEL], "*.uavs[*].wlan[1].bitrate = 7Mbps", " g(mixed)"),
         (
             [CHANNEL],
             "*.uavs[*].wlan[1].radio.receiver.energyDetection = -120dBm",
-            "energyDetection=-120dBm: expected more than the background noise of -110dBm",
+            " -110dBm",
         ),
-        ([CHANNEL], "*.uavs[*].wlan[1].radio.transmitter.communicationRange = 1e30m", "no power reaches"),
-        ([], "*.uavs[*].wlan[*].radio.channelNumber = 5", "another channel than that of wlan[0] of uavs[0]"),
+        ([CHANNEL], "*.uavs[*].wlan[1].radio.transmitter.communicationRange = 1e30m", "power"),
+        ([], "*.uavs[*].wlan[*].radio.channelNumber = 5", "wlan[0] of uavs[0]"),
     ],
 )
 def test_a_mistake_is_told_at_the_line_of_that_interface(make_scenario, lines, wrong, text):
@@ -60,14 +60,13 @@ def test_where_there_are_no_radios_they_need_no_channels(make_scenario):
 @pytest.mark.parametrize(
     ("interface", "text"),
     [
-        ("2", "node 0 has no interface wlan[2]: it has 2, from wlan[0] on"),
-        ("15", "node 0 has no interface wlan[15]: it has 2, from wlan[0] on"),
+        ("2", r"^node 0 .* wlan\[2\]: .* 2, .* wlan\[0\]"),
+        ("15", r"^node 0 .* wlan\[15\]: .* 2, .* wlan\[0\]"),
     ],
 )
 def test_a_command_names_an_interface_that_is_there(make_scenario, interface, text):
-    with pytest.raises(CommunicationException) as error:
+    with pytest.raises(CommunicationException, match=text):
         run(make_scenario(SENDING.format(interface), TWO, CHANNEL))
-    assert text in str(error.value)
 
 
 def test_an_index_of_a_class_of_its_own_is_an_int_too(make_scenario):

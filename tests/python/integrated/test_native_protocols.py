@@ -67,12 +67,12 @@ def test_a_parameter_out_of_range_is_an_error_at_its_setting(make_scenario):
         (
             "*.node.protocol.payload_bytes = 2277",
             "test.ini:4: *.node.protocol.payload_bytes = 2277",
-            "expected from 0B to 2276B, the longest message of node",
+            "0B to 2276B",
         ),
         (
             "*.node.wlan[*].mac.mtu = 127B",
             "test.ini:3: *.node.protocol.typename",
-            "protocol.payload_bytes = 100B (its default): expected from 0B to 99B, the longest message",
+            "0B to 99B",
         ),
     ],
 )
@@ -102,17 +102,17 @@ def test_prototype_mode_names_the_class_to_use(make_scenario):
         (
             ['*.uavs[*].protocol.typename = "SaturatingSource"', "*.uavs[*].protocol.destination = 77"],
             "*.uavs[*].protocol.destination",
-            "expected the id of a node, from 0 to 1",
+            " 0 to 1",
         ),
         (
             ['*.uavs[*].protocol.typename = "SaturatingSource"'],
             "*.uavs[*].protocol.typename",
-            "expected the id of another node than uavs[0] itself, from 0 to 1",
+            " uavs[0] itself, ",
         ),
         (
             ['*.uavs[*].protocol.typename = "FloodProtocol"', "*.uavs[*].protocol.origin = 2"],
             "*.uavs[*].protocol.origin",
-            "expected the id of a node, from 0 to 1",
+            " 0 to 1",
         ),
         (
             [
@@ -120,7 +120,7 @@ def test_prototype_mode_names_the_class_to_use(make_scenario):
                 '*.uavs[*].mobility.typename = "StationaryMobility"',
             ],
             "*.uavs[*].mobility.typename",
-            'expected "MasslessMobility" for uavs[1], as ZigZagMobileProtocol flies',
+            '"MasslessMobility" for uavs[1]',
         ),
     ],
 )

@@ -47,9 +47,9 @@ def test_without_rate_control_frames_are_not_counted_by_bitrate(
     ("setting", "text"),
     [
         ('**.rateControl.typename = "AarfControl"', "AarfRateControl"),
-        ("**.rateControl.initialRate = 11Mbps", "the nearest is 12 Mbps"),
-        ("**.rateControl.lookAroundRate = 2", "at least 0 and at most 1"),
-        ("**.rateControl.maxIncreaseThreshold = 5", "at most .*maxIncreaseThreshold, 5"),
+        ("**.rateControl.initialRate = 11Mbps", " 12 Mbps"),
+        ("**.rateControl.lookAroundRate = 2", " 0 .* 1"),
+        ("**.rateControl.maxIncreaseThreshold = 5", "maxIncreaseThreshold, 5"),
     ],
 )
 def test_a_wrong_value_is_refused_with_what_was_expected(

@@ -49,13 +49,13 @@ def test_its_parameters_are_checked_and_converted(folder: Any) -> None:
 @pytest.mark.parametrize(
     ("lines", "line", "hint"),
     [
-        (f"{BEACONS}*.uavs[*].protocol.interval = 5m\n", 8, "a minute is `min`"),
+        (f"{BEACONS}*.uavs[*].protocol.interval = 5m\n", 8, "`min`"),
         (f"{BEACONS}*.uavs[*].protocol.intervall = 1s\n", 8, "`*.uavs[*].protocol.interval`"),
         (f"{BEACONS}*.uavs[*].protocol.payload_bytes = 1.5\n", 8, "`1.5`"),
-        (BEACONS.replace("BeaconProtocol", "Beacon"), 7, "did you mean `BeaconProtocol`?"),
-        (BEACONS.replace("BeaconProtocol", "protocols.py:Mobile"), 7, "did you mean `protocol.class`?"),
-        (BEACONS.replace("typename", "class"), 7, "did you mean `protocol.typename`?"),
-        (BEACONS.replace("typename", "typenam"), 7, "did you mean `*.uavs[*].protocol.typename`?"),
+        (BEACONS.replace("BeaconProtocol", "Beacon"), 7, "`BeaconProtocol`?"),
+        (BEACONS.replace("BeaconProtocol", "protocols.py:Mobile"), 7, "`protocol.class`?"),
+        (BEACONS.replace("typename", "class"), 7, "`protocol.typename`?"),
+        (BEACONS.replace("typename", "typenam"), 7, "`*.uavs[*].protocol.typename`?"),
     ],
 )
 def test_an_error_has_its_line_and_a_hint(folder: Any, lines: str, line: int, hint: str) -> None:

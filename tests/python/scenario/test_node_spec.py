@@ -53,19 +53,13 @@ def test_all_of_it(make_scenario, tmp_path):
 @pytest.mark.parametrize(
     ("line", "said"),
     [
-        ("*.uavs[*].mobility.speed = 0mps", "too slow for an autopilot; expected at least 0.2mps"),
-        ("*.uavs[*].mobility.speed = 0.1mps", "too slow for an autopilot; expected at least 0.2mps"),
-        (
-            '*.uavs[*].mobility.autopilotParameters = "A=1 B"',
-            "`B` is not a parameter; expected",
-        ),
-        ('*.uavs[*].mobility.autopilotParameters = "A=fast"', "`A=fast` is not a parameter"),
-        ('*.uavs[*].mobility.autopilotParameters = "A=inf"', "`A=inf` is not a parameter"),
-        ('*.uavs[*].mobility.autopilotParameters = "=1"', "`=1` is not a parameter"),
-        (
-            '*.uavs[*].mobility.autopilotParameters = "A=1 a=2"',
-            "`a` is repeated; expected each parameter once",
-        ),
+        ("*.uavs[*].mobility.speed = 0mps", " 0.2mps"),
+        ("*.uavs[*].mobility.speed = 0.1mps", " 0.2mps"),
+        ('*.uavs[*].mobility.autopilotParameters = "A=1 B"', "`B`"),
+        ('*.uavs[*].mobility.autopilotParameters = "A=fast"', "`A=fast`"),
+        ('*.uavs[*].mobility.autopilotParameters = "A=inf"', "`A=inf`"),
+        ('*.uavs[*].mobility.autopilotParameters = "=1"', "`=1`"),
+        ('*.uavs[*].mobility.autopilotParameters = "A=1 a=2"', "`a`"),
     ],
 )
 def test_what_makes_no_sense_is_refused_with_its_line(make_scenario, line, said):

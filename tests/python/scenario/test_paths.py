@@ -67,21 +67,21 @@ def test_an_area_without_extent_is_a_place(folder: Any) -> None:
 @pytest.mark.parametrize(
     ("lines", "problem"),
     [
-        (['typename = "CircleMobility"'], "nothing sets the radius; expected `mobility.r = 100m`"),
+        (['typename = "CircleMobility"'], "`mobility.r = 100m`"),
         (
             ['typename = "RectangleMobility"', "constraintAreaMinX = 1m", "constraintAreaMaxX = 2m"],
-            "nothing sets constraintAreaMinY and constraintAreaMaxY",
+            "constraintAreaMinY and constraintAreaMaxY",
         ),
         (
             ['typename = "LinearMobility"', "constraintAreaMaxX = 7m", "initialX = 8m"],
-            "the node starts at x = 8m; expected -1e+07m to 7m",
+            "x = 8m; .* 7m",
         ),
         (
             ['typename = "LinearMobility"', "constraintAreaMinY = 9m", "constraintAreaMaxY = 7m"],
-            "the area ends at 7m and begins at 9m",
+            " 7m .* 9m",
         ),
     ],
 )
 def test_what_is_no_path(folder: Any, lines: list[str], problem: str) -> None:
-    with pytest.raises(ConfigError, match=problem.replace("+", r"\+")):
+    with pytest.raises(ConfigError, match=problem):
         folder.load("".join(f"*.uavs[*].mobility.{line}\n" for line in lines))

@@ -103,13 +103,13 @@ def test_one_row_takes_one_separation(folder: Any) -> None:
 @pytest.mark.parametrize(
     ("line", "text"),
     [
-        ("numHosts = 1", "uavs[*] has 2 nodes; expected as many, or no such line"),
-        ("columns = 0", "expected an integer"),
+        ("numHosts = 1", "uavs[*] has 2 nodes"),
+        ("columns = 0", "integer"),
         (
             "rows = 1\n*.uavs[*].mobility.columns = 1",
-            "1 rows of 1 columns have no room for 2 nodes; expected more",
+            "1 rows of 1 columns",
         ),
-        ("marginX = 9999999m", "a node would start at x = 10000029m; expected at most 10000000m from 0m"),
+        ("marginX = 9999999m", "x = 10000029m"),
     ],
 )
 def test_a_grid_that_cannot_be(folder: Any, line: str, text: str) -> None:

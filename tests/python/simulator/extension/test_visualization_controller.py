@@ -34,14 +34,14 @@ def test_commands(controller, handler, method, arguments, command):
 @pytest.mark.parametrize(
     ("method", "arguments", "error", "expected"),
     [
-        ("paint_node", (2, (0, 0, 0)), ValueError, "no node 2, only"),
+        ("paint_node", (2, (0, 0, 0)), ValueError, "node 2, "),
         ("paint_node", ("0", (0, 0, 0)), TypeError, "'0'"),
-        ("paint_node", (0, (0, 0)), ValueError, "three numbers of 0 to 255"),
+        ("paint_node", (0, (0, 0)), ValueError, " 0 to 255"),
         ("paint_node", (0, (256, 0, 0)), ValueError, "256"),
         ("paint_node", (0, "red"), ValueError, "'red'"),
         ("paint_environment", ((-1, 0, 0),), ValueError, "-1"),
         ("paint_environment", ((math.nan, 0, 0),), ValueError, "nan"),
-        ("paint_environment", ((10**400, 0, 0),), ValueError, "three numbers >= 0"),
+        ("paint_environment", ((10**400, 0, 0),), ValueError, " >= 0"),
         ("resize_nodes", (0,), ValueError, "> 0, got 0"),
         ("resize_nodes", ("big",), ValueError, "'big'"),
         ("resize_nodes", (math.inf,), ValueError, "> 0, got inf"),
