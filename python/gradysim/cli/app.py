@@ -10,14 +10,15 @@ import os
 import sys
 from collections.abc import Sequence
 from io import TextIOWrapper
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cyclopts import App, CycloptsError, CycloptsPanel, Group, UnknownOptionError, UnusedCliTokensError
 
 from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
+    from cyclopts.help import HelpPanel
+    from rich.console import Console, ConsoleOptions, RenderableType
 
 
 def installed_version() -> str:
@@ -56,11 +57,29 @@ def _unknown_option(error: UnknownOptionError) -> str:
     return text
 
 
+class FlowingHelp:
+    """Prints helps as cyclopts does, but joins the lines of the help of an option, which is a docstring."""
+
+    def __getattr__(self, name: str) -> Any:
+        from cyclopts.help import DefaultFormatter
+
+        return getattr(DefaultFormatter(), name)
+
+    def __call__(self, console: "Console", options: "ConsoleOptions", panel: "HelpPanel") -> None:
+        """Print a part of a help."""
+        for entry in panel.entries:
+            text = entry.description.primary_renderable
+            text.plain = " ".join(text.plain.split())
+        self.__getattr__("__call__")(console, options, panel)
+
+
 app = App(
     name="gradysim",
     help="Simulator of flying networks: one Python protocol, from a prototype to a realistic 802.11 network.",
     version=installed_version,
     suppress_keyboard_interrupt=False,
+    help_format="plaintext",  # to render Markdown takes a third of the time of a help
+    help_formatter=FlowingHelp(),
     error_formatter=mistake_in_arguments,
 )
 app.register_install_completion_command(help="Install completion for this shell, and end.")

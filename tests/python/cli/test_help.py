@@ -23,7 +23,7 @@ def test_help_names_the_commands(gradysim):
 )
 def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
     shown = re.findall(
-        r"^│ *\*? *(--\S+)(?: (--?\w+))?.*? {2,}\w", gradysim(command, "--help").stdout, re.MULTILINE
+        r"^│ *\*? *(--\S+)(?: (--?[\w-]+))?.*? {2,}\w", gradysim(command, "--help").stdout, re.MULTILINE
     )
     options = [argument.names for argument in app[command].assemble_argument_collection()]
     assert [tuple(filter(None, names)) for names in shown] == [
@@ -33,7 +33,7 @@ def test_help_of_a_command_has_a_text_for_each_option(gradysim, command):
 
 @pytest.mark.parametrize("group", COMMANDS)
 def test_each_command_has_an_example_that_it_accepts(gradysim, group):
-    for command, (function, example) in COMMANDS[group].items():
+    for command, (function, _, example) in COMMANDS[group].items():
         called, _, _ = app.parse_args(shlex.split(example)[1:], exit_on_error=False)
         assert f"{called.__module__}:{called.__name__}" == f"gradysim.cli.{function}"
         assert f"Example: {example}" in gradysim(command, "--help").stdout
@@ -61,7 +61,7 @@ def test_help_loads_nothing_heavy(folder):
     ours = {name for name in done.stdout.splitlines() if name.startswith("gradysim")}
     others = {name for name in ours if not name.startswith("gradysim.cli")}
     assert others == {"gradysim", "gradysim.installation"}
-    heavy = {"numpy", "pandas", "matplotlib", "sqlite3", "asyncio", "rich.progress"}
+    heavy = {"numpy", "pandas", "matplotlib", "sqlite3", "asyncio", "rich.progress", "rich.markdown"}
     assert not heavy & set(done.stdout.splitlines())
 
 
