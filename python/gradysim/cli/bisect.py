@@ -68,7 +68,7 @@ def find_breaking_level(
         assert verdict.works is not None
         assert verdict.fails is not None
         lines = explanation_sentences(explanation, verdict.works, verdict.fails)
-        look = f"Look at both, run {verdict.place}: gradysim view {' '.join(files)}"
+        look = f"Look at both, run {verdict.index}: gradysim view {' '.join(files)}"
         terminal.print(*lines, look, sep="\n", markup=False, highlight=False)
     return OK if verdict.fails is None else FAILED
 
@@ -77,17 +77,17 @@ def _explained(
     campaign: Campaign, verdict: Verdict, options: CampaignOptions, executor: Executor
 ) -> tuple[Explanation, list[str]] | None:
     """Record a run that works at the one level and fails at the other, and compare the two."""
-    place, works, fails = verdict.place, verdict.works, verdict.fails
-    if place is None or works is None or fails is None:
+    index, works, fails = verdict.index, verdict.works, verdict.fails
+    if index is None or works is None or fails is None:
         return None
     directory = options.result_dir or DEFAULT_DIR
     directory.mkdir(parents=True, exist_ok=True)
     one, other = (
-        directory / f"{campaign.config}-{campaign.levels[level].name}-#{place}.html"
+        directory / f"{campaign.config}-{campaign.levels[level].name}-#{index}.html"
         for level in (works, fails)
     )
     effects = (campaign.effects_up_to(works), campaign.effects_up_to(fails))
-    explanation = record_and_explain(campaign, effects, place, (one, other), executor)
+    explanation = record_and_explain(campaign, effects, index, (one, other), executor)
     return explanation, [str(one), str(other)]
 
 
@@ -104,7 +104,7 @@ def verdict_json(
         "is_sure": verdict.is_sure,
         "confidence": bisection.confidence,
         "smallest": verdict.smallest,
-        "run": verdict.place,
+        "run": verdict.index,
         "runs": verdict.run_count,
         "levels": [_level_json(bisection, number) for number in range(len(levels))],
     }
@@ -126,5 +126,5 @@ def _level_json(bisection: Bisection, number: int) -> Mapping[str, object]:
         "runs": tally.run_count,
         "held": tally.held,
         "fails_at_most": tally.most_failures(bisection.confidence),
-        "exceptions": [{"run": place} | asdict(each) for place, each in sorted(tally.failures.items())],
+        "exceptions": [{"run": index} | asdict(each) for index, each in sorted(tally.failures.items())],
     }

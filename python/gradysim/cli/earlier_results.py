@@ -38,7 +38,7 @@ def runs_to_do(study: Study, options: RunOptions) -> Sequence[int]:
         return _left_to_do(study, options)
     if options.is_writer:
         found = _with_result(study, options)
-        others = [place for place in found if _has_other_settings(study[place], options)]
+        others = [index for index in found if _has_other_settings(study[index], options)]
         _check_others(study, others, options)
     return range(len(study))
 
@@ -50,7 +50,7 @@ def _check_others(study: Study, others: Sequence[int], options: RunOptions) -> N
     """
     if not others:
         return
-    numbers = [study.numbers[place] for place in others]
+    numbers = [study.numbers[index] for index in others]
     which = f"{len(numbers)} of {len(study)} runs ({text_of_runs(numbers)})"
     if not options.replace:
         hint = (
@@ -89,15 +89,15 @@ def _left_to_do(study: Study, options: RunOptions) -> list[int]:
         )
     left, done, others = [], [], []
     outdated: dict[tuple[str, ...], list[int]] = {}
-    for place, (number, state, changed) in enumerate(states_of(study, options)):
+    for index, (number, state, changed) in enumerate(states_of(study, options)):
         if state is State.DONE:
             done.append(number)
             continue
-        left.append(place)
+        left.append(index)
         if changed:
             outdated.setdefault(changed, []).append(number)
         if state is State.OF_OTHER_SETTINGS:
-            others.append(place)
+            others.append(index)
     _check_others(study, others, options)
     for files, runs in outdated.items():
         print(
@@ -128,11 +128,11 @@ class State(Enum):
 def states_of(study: Study, options: RunOptions) -> Iterator[tuple[int, State, tuple[str, ...]]]:
     """Yield the number of each run, its state, and the files that have changed since, as --resume does."""
     with_result = set(_with_result(study, options))
-    for place, number in enumerate(study.numbers):
-        if place not in with_result:
+    for index, number in enumerate(study.numbers):
+        if index not in with_result:
             yield number, State.MISSING, ()
         else:
-            yield number, *_state_of(study[place], options)
+            yield number, *_state_of(study[index], options)
 
 
 def _state_of(scenario: Scenario, options: RunOptions) -> tuple[State, tuple[str, ...]]:
@@ -155,8 +155,8 @@ def _with_result(study: Study, options: RunOptions) -> list[int]:
     """Return the positions in `study` of runs that have a result in the directory or in its packs."""
     names = result_names(options.directory)
     return [
-        place
-        for place, number in enumerate(study.numbers)
+        index
+        for index, number in enumerate(study.numbers)
         if run_file(Path(), study.config, number, options.mode).name in names
     ]
 

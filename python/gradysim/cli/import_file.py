@@ -43,11 +43,11 @@ def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported"
 
 def _rows(translation: Translation, file: Path) -> Iterator[str]:
     for outcome in translation.outcomes:
-        place = ""
+        where = ""
         if outcome.entry is not None:
             source = outcome.entry.source
-            place = str(source.line) if source.file == file else f"{source.file.name}:{source.line}"
-        yield f"{place:>5}  {outcome.action.value:12}  {_text(outcome)}".rstrip()
+            where = str(source.line) if source.file == file else f"{source.file.name}:{source.line}"
+        yield f"{where:>5}  {outcome.action.value:12}  {_text(outcome)}".rstrip()
 
 
 def _text(outcome: Outcome) -> str:

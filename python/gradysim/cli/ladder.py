@@ -62,9 +62,9 @@ def _tell_first_failure(rungs: list[Rung], run_count: int) -> None:
         levels = ", ".join(
             f"{rung.number} {rung.level.name} ({len(rung.failures)} of {run_count})" for rung in failed
         )
-        place, failure = min(failed[0].failures.items())
+        index, failure = min(failed[0].failures.items())
         print(
-            f"runs failed at level {levels}; level {failed[0].number}, run {place}: {failure}",
+            f"runs failed at level {levels}; level {failed[0].number}, run {index}: {failure}",
             file=sys.stderr,
         )
 
@@ -77,7 +77,7 @@ def rung_json(rung: Rung) -> dict[str, object]:
         "change": None if rung.change is None else asdict(rung.change),
         "loss": rung.loss,
         "loss_ratio": rung.loss_ratio,
-        "exceptions": [{"run": place} | asdict(each) for place, each in sorted(rung.failures.items())],
+        "exceptions": [{"run": index} | asdict(each) for index, each in sorted(rung.failures.items())],
     }
 
 

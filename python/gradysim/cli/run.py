@@ -59,7 +59,7 @@ class _Prepared(NamedTuple):
 
     Attributes:
         study: The runs.
-        left: Positions of the runs to execute.
+        left: Indices of the runs to execute.
         until: Condition of --until.
         build: Builds a run, ready to execute.
         command: What its processes need.
@@ -208,8 +208,8 @@ def _run_rounds(
     """Compute the runs that are left, round by round with --until, and return the exit code."""
     study, left, until, _, command = prepared
     try:
-        for places in rounds_of(study, left, until, command.options):
-            code = run_all(study.config, [study.numbers[place] for place in places], executor, on_progress)
+        for indices in rounds_of(study, left, until, command.options):
+            code = run_all(study.config, [study.numbers[index] for index in indices], executor, on_progress)
             if code != OK:
                 return code
     except (ConfigError, OSError) as mistake:

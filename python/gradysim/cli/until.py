@@ -63,24 +63,24 @@ def rounds_of(
         yield left
         return
     wanted, numbers = set(left), _Numbers(study, until, options)
-    unmet = study.places_of_repetitions()
+    unmet = study.indices_of_repetitions()
     if max(map(len, unmet)) < 2:
         raise ConfigError(
             f"--until {until.text}: a single repetition has no interval",
             expected="`repeat` of 2 or more, the largest number of repetitions",
         )
     done = 0
-    while wide := [places for places in unmet if done < len(places)]:
-        batch = [(number, places[number]) for places in wide for number in _next(done, places)]
-        yield [place for _, place in sorted(batch) if place in wanted]
+    while wide := [indices for indices in unmet if done < len(indices)]:
+        batch = [(number, indices[number]) for indices in wide for number in _next(done, indices)]
+        yield [index for _, index in sorted(batch) if index in wanted]
         done += BATCH
-        numbers.read(place for places in wide for place in places[:done])
-        unmet = [places for places in unmet if numbers.percent_of(places[:done]) >= until.percent]
+        numbers.read(index for indices in wide for index in indices[:done])
+        unmet = [indices for indices in unmet if numbers.percent_of(indices[:done]) >= until.percent]
     _tell(study, until, options, numbers, unmet)
 
 
-def _next(done: int, places: Sequence[int]) -> range:
-    return range(done, min(done + BATCH, len(places)))
+def _next(done: int, indices: Sequence[int]) -> range:
+    return range(done, min(done + BATCH, len(indices)))
 
 
 class _Numbers:
@@ -98,22 +98,22 @@ class _Numbers:
         """Number of results that were read."""
         return len(self._numbers)
 
-    def read(self, places: Iterable[int]) -> None:
+    def read(self, indices: Iterable[int]) -> None:
         """Read the results of these runs, unless they are known. Raises ConfigError and OSError."""
-        for place in places:
-            if place not in self._numbers:
-                summary = self._summary(place)
+        for index in indices:
+            if index not in self._numbers:
+                summary = self._summary(index)
                 self._binary = self._binary and summary.is_binary(self._until.quantity)
-                self._numbers[place] = summary.number(self._until.quantity)
+                self._numbers[index] = summary.number(self._until.quantity)
 
-    def percent_of(self, places: Sequence[int]) -> float:
+    def percent_of(self, indices: Sequence[int]) -> float:
         """Return the width of the interval of runs that were read, as `percent_of_mean` does."""
-        numbers = [number for place in places if (number := self._numbers[place]) is not None]
+        numbers = [number for index in indices if (number := self._numbers[index]) is not None]
         return percent_of_mean(estimate(numbers, binary=self._binary)) if numbers else inf
 
-    def _summary(self, place: int) -> RunSummary:
+    def _summary(self, index: int) -> RunSummary:
         study, options = self._study, self._options
-        file = run_file(options.directory, study.config, study.numbers[place], options.mode)
+        file = run_file(options.directory, study.config, study.numbers[index], options.mode)
         summary = RunSummary.of(read_run_file(file), file)
         if not self._numbers and self._until.quantity not in summary.numbers:
             quantity = self._until.quantity
@@ -140,9 +140,9 @@ def _tell(
     """Print how many runs meet the condition, or to standard error by how much they do not."""
     if unmet:
         wide = []
-        for places in unmet:
-            values = text_of_iterations(study[places[0]].iterations)
-            percent = f"{numbers.percent_of(places):.3g}%"
+        for indices in unmet:
+            values = text_of_iterations(study[indices[0]].iterations)
+            percent = f"{numbers.percent_of(indices):.3g}%"
             wide.append(f"{percent} with {values}" if values else percent)
         print(
             f"{study.config}: warning: the repetitions do not reach {until.text}: {', '.join(wide)};"

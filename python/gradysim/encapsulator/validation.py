@@ -27,7 +27,7 @@ _FAR_M = 100e3
 """Farther than nodes usually fly."""
 _NEAR_RATIO = 1 / 20
 """Exchanged coordinates are reported if they are nearer by this factor. Near the diagonal, where latitude and
-longitude are about equal, both places may be intended."""
+longitude are about equal, both positions may be intended."""
 
 
 # Messages
@@ -215,15 +215,15 @@ def geo_target(command: Any, node_id: int, reference_coordinates: Position) -> P
     not a finite number, the latitude is out of range, the target is too far away, or latitude and longitude
     are exchanged.
     """
-    place = three_numbers(command)
-    if place is None:
+    coordinates = three_numbers(command)
+    if coordinates is None:
         raise MasslessMobilityException(f"{_geographic(command, node_id)}: expected three finite numbers")
-    latitude, longitude, altitude = place
+    latitude, longitude, altitude = coordinates
     if not -90 <= latitude <= 90:
         raise MasslessMobilityException(
             f"{_geographic(command, node_id)}: expected a latitude from -90 to 90 degrees"
         )
-    target = geo_to_cartesian(reference_coordinates, place)
+    target = geo_to_cartesian(reference_coordinates, coordinates)
     far_away = f", which is {math.hypot(*target) / 1000:.0f} km from the origin of the scene"
     if not _is_in_scene(target):
         raise MasslessMobilityException(

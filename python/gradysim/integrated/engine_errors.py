@@ -68,10 +68,10 @@ def settings_by_target(struct: str, settings: Mapping[str, Setting]) -> dict[str
 
 def _engine_error(error: "_netsim.ConfigError", settings: Mapping[str, Setting]) -> EngineError:
     target = error.field
-    place = settings.get(_cause(error, settings))
+    setting = settings.get(_cause(error, settings))
     if not target:
         text = text_of(error)
-        return EngineError(text) if place is None else EngineError.at(place.source, text)
+        return EngineError(text) if setting is None else EngineError.at(setting.source, text)
     key = KEYS_BY_TARGET.get(target)
     name = _name(target, error.interface)
     value = _text([error.value], key, error.interface)
@@ -81,10 +81,10 @@ def _engine_error(error: "_netsim.ConfigError", settings: Mapping[str, Setting])
         is_default = f" = {value} (its default)" if value else ""
         text = f"{name}{' has to be given' if is_missing else is_default}: {message}"
     else:
-        is_literal = place is None or _LITERAL.fullmatch(place.source.value)
+        is_literal = setting is None or _LITERAL.fullmatch(setting.source.value)
         that = "" if is_literal or not value else f"that is {value}: "
-        text = f"{_for(target, name, place)}{that}{message}{_file_meant(key, settings[target])}"
-    told = EngineError(text) if place is None else EngineError.at(place.source, text)
+        text = f"{_for(target, name, setting)}{that}{message}{_file_meant(key, settings[target])}"
+    told = EngineError(text) if setting is None else EngineError.at(setting.source, text)
     told.target = target
     return told
 
@@ -127,9 +127,9 @@ def _quantity(value: float, unit: str, key: Key | None) -> str:
     return f"{value:.6g}{unit}"
 
 
-def _for(target: str, name: str, place: Setting | None) -> str:
+def _for(target: str, name: str, setting: Setting | None) -> str:
     """Return the parameter of the value if the line has wildcards for a part of its name; else ""."""
-    if place is None or "*" not in (line := place.source.key):
+    if setting is None or "*" not in (line := setting.source.key):
         return ""
     paths = [key.path for key in NODE_KEYS if key.target == target]
     paths += [key.path.partition(".")[2] for key in NETWORK_KEYS if key.target == target]

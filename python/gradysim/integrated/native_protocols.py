@@ -22,7 +22,7 @@ def is_native(spec: NodeSpec) -> bool:
 def set_native_protocol(node: "_netsim.Node", spec: NodeSpec) -> None:
     """Give `node` the native protocol of `spec`, after all nodes have been created.
 
-    Raises ConfigError, with the place in the .ini file, if a parameter is outside its range, or is not valid
+    Raises ConfigError, with the source in the .ini file, if a parameter is outside its range, or is not valid
     for this node in this network.
     """
     values = cast("Mapping[str, bool | int | float]", spec.protocol_parameters)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 def build_network(scenario: Scenario) -> tuple["Network", tuple["Node", ...]]:
     """Return the network of `scenario` and its nodes in the order of their ids, without protocols in Python.
 
-    Raises ConfigError, with the place in the .ini file, if a value is outside the engine's range.
+    Raises ConfigError, with the source in the .ini file, if a value is outside the engine's range.
     """
     try:
         return _built(scenario)
@@ -96,7 +96,7 @@ def one_of_each_kind(nodes: Iterable[NodeSpec]) -> Iterable[NodeSpec]:
 
 
 def check_scenario(scenario: Scenario) -> None:
-    """Raise ConfigError, with the place in the .ini file, if a value is outside the engine's range.
+    """Raise ConfigError, with the source in the .ini file, if a value is outside the engine's range.
 
     Building the network makes the same checks. Use this function to check a study before its first run.
     """

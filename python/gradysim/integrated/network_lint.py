@@ -109,8 +109,8 @@ def _other_lines(first: Source, others: list[Source]) -> str:
         return ""
     if len(others) > _MOST_LINES:
         return f", nor {len(others)} other lines"
-    places = [str(other.line) if other.line and other.file == first.file else str(other) for other in others]
-    return f", nor {'line' if len(places) == 1 else 'lines'} {_joined(places, 'and')}"
+    lines = [str(other.line) if other.line and other.file == first.file else str(other) for other in others]
+    return f", nor {'line' if len(lines) == 1 else 'lines'} {_joined(lines, 'and')}"
 
 
 def _quoted(names: Iterable[str]) -> str:
@@ -196,10 +196,10 @@ def _stations_without_a_common_mode(scenario: Scenario) -> Iterator[Finding]:
             for other_mode in modes[number + 1 :]:
                 spec, interface, source = by_mode[mode]
                 other_spec, other_interface, other_source = by_mode[other_mode]
-                place = other_source or source
-                if place is not None and not interface.known_formats & other_interface.known_formats:
+                reported = other_source or source
+                if reported is not None and not interface.known_formats & other_interface.known_formats:
                     yield Finding(
-                        place,
+                        reported,
                         f'{spec.name} and {other_spec.name} are on one channel with operation modes "{mode}"'
                         f' and "{other_mode}", which have no frame format in common: they are noise to each'
                         ' other; expected one mode for both, or "g(mixed)", which has the frames of "b" and'

@@ -52,7 +52,7 @@ class Runs(Protocol):
         self,
         executor: Executor | None,
         effects: Effects,
-        places: Sequence[int],
+        indices: Sequence[int],
         quantities: Sequence[str],
         jitter: Jitter | None = None,
     ) -> Iterator[Observation]:
@@ -69,8 +69,8 @@ class Tally:
 
     Attributes:
         outcomes: Whether the assertion holds, for the runs 0, 1, 2, …
-        searched: The same for runs that searched for a rare failure: {position of the run: outcome}.
-        failures: Why runs failed: {position of the run: its exception}.
+        searched: The same for runs that searched for a rare failure: {index of the run: outcome}.
+        failures: Why runs failed: {index of the run: its exception}.
     """
 
     outcomes: list[bool] = field(default_factory=list)
@@ -95,8 +95,8 @@ class Tally:
     @property
     def failed_run(self) -> int | None:
         """Position of the first run in which the assertion does not hold."""
-        failed = [place for place, holds in enumerate(self.outcomes) if not holds]
-        return min([*failed, *(place for place, holds in self.searched.items() if not holds)], default=None)
+        failed = [index for index, holds in enumerate(self.outcomes) if not holds]
+        return min([*failed, *(index for index, holds in self.searched.items() if not holds)], default=None)
 
     def most_failures(self, confidence: float) -> float:
         """Return the largest ratio of failing runs that fits to these, with that confidence."""
@@ -117,7 +117,7 @@ class Verdict:
         is_sure: Whether pairs of runs show that these two levels differ. True if it works at all levels or
             fails at level 0.
         smallest: The smallest set of effects that makes it fail, in the order of levels; empty if unknown.
-        place: Position of a run that works at the one level and fails at the other, if there is one.
+        index: Index of a run that works at the one level and fails at the other, if there is one.
         run_count: Runs that it took.
     """
 
@@ -125,7 +125,7 @@ class Verdict:
     fails: int | None
     is_sure: bool
     smallest: tuple[str, ...] = ()
-    place: int | None = None
+    index: int | None = None
     run_count: int = 0
 
 
@@ -211,11 +211,11 @@ class Bisection:
         leave these runs out: a seed that was chosen for its failure would count for that level.
         """
         top = len(self.campaign.levels) - 1
-        place = len(self.campaign) - 1
+        index = len(self.campaign) - 1
         for level in cycle(range(1, top)) if top > 1 else cycle([top]):
-            places = range(place, place - _AT_ONCE, -1)
-            place -= _AT_ONCE
-            self._run_searching([(top, places), (level, places)] if level != top else [(top, places)])
+            indices = range(index, index - _AT_ONCE, -1)
+            index -= _AT_ONCE
+            self._run_searching([(top, indices), (level, indices)] if level != top else [(top, indices)])
             failed = self._failed_in_search()
             if failed is not None:
                 self._run_searching([(each, [failed]) for each in range(top + 1)])
@@ -223,9 +223,9 @@ class Bisection:
 
     def _failed_in_search(self) -> int | None:
         for level in range(len(self.campaign.levels)):
-            for place, holds in self.at_level(level).searched.items():
+            for index, holds in self.at_level(level).searched.items():
                 if not holds:
-                    return place
+                    return index
         return None
 
     def _confirmed(self) -> int:
@@ -250,7 +250,7 @@ class Bisection:
         def suspicion(level: int) -> tuple[float, float, float, int]:
             below, here = self.at_level(level - 1), self.at_level(level)
             found = any(
-                holds and not here.searched.get(place, True) for place, holds in below.searched.items()
+                holds and not here.searched.get(index, True) for index, holds in below.searched.items()
             )
             return evidence_of_pairs(*self._pairs(level)), found, below.ratio - here.ratio, -level
 
@@ -293,36 +293,36 @@ class Bisection:
         below, here = self.at_level(fails - 1), self.at_level(fails)
         pairs = enumerate(zip(below.outcomes, here.outcomes, strict=False))
         in_search = (
-            (place, (holds, here.searched.get(place, True))) for place, holds in below.searched.items()
+            (index, (holds, here.searched.get(index, True))) for index, holds in below.searched.items()
         )
-        return next((place for place, (one, other) in [*pairs, *in_search] if one and not other), None)
+        return next((index for index, (one, other) in [*pairs, *in_search] if one and not other), None)
 
     def _run_all(self, wanted: Sequence[tuple[Effects, range]]) -> None:
         """Execute the runs with these effects that have not been done, up to the end of each range."""
         missing = [
-            (effects, range(len(self.with_effects(effects).outcomes), places.stop))
-            for effects, places in wanted
+            (effects, range(len(self.with_effects(effects).outcomes), indices.stop))
+            for effects, indices in wanted
         ]
-        self._check_budget([places for _, places in missing])
-        for effects, places, seen in self._submitted(missing):
+        self._check_budget([indices for _, indices in missing])
+        for effects, indices, seen in self._submitted(missing):
             tally = self.with_effects(effects)
-            for place, each in zip(places, seen, strict=True):
-                tally.outcomes.append(self._holds(tally, place, each))
+            for index, each in zip(indices, seen, strict=True):
+                tally.outcomes.append(self._holds(tally, index, each))
 
     def _run_searching(self, wanted: Sequence[tuple[int, Sequence[int]]]) -> None:
         """Execute these runs at these levels, unless that has been done."""
         missing = [
-            (self._effects(level), [place for place in places if place not in self.at_level(level).searched])
-            for level, places in wanted
+            (self._effects(level), [index for index in indices if index not in self.at_level(level).searched])
+            for level, indices in wanted
         ]
-        self._check_budget([places for _, places in missing])
-        for effects, places, seen in self._submitted(missing):
+        self._check_budget([indices for _, indices in missing])
+        for effects, indices, seen in self._submitted(missing):
             tally = self.with_effects(effects)
-            for place, each in zip(places, seen, strict=True):
-                tally.searched[place] = self._holds(tally, place, each)
+            for index, each in zip(indices, seen, strict=True):
+                tally.searched[index] = self._holds(tally, index, each)
 
     def _check_budget(self, missing: Sequence[Sequence[int]]) -> None:
-        last = max((place for places in missing for place in places), default=0)
+        last = max((index for indices in missing for index in indices), default=0)
         if self.run_count + sum(map(len, missing)) > self._max_runs or last >= len(self.campaign):
             raise _OutOfRunsError
 
@@ -332,14 +332,14 @@ class Bisection:
         """Submit all of these runs, and yield what they show."""
         quantities = self.assertion.quantities
         submitted = [
-            self.campaign.observations(self._executor, effects, places, quantities)
-            for effects, places in wanted
+            self.campaign.observations(self._executor, effects, indices, quantities)
+            for effects, indices in wanted
         ]
-        for (effects, places), seen in zip(wanted, submitted, strict=True):
-            yield effects, places, seen
+        for (effects, indices), seen in zip(wanted, submitted, strict=True):
+            yield effects, indices, seen
 
-    def _holds(self, tally: Tally, place: int, seen: Observation) -> bool:
+    def _holds(self, tally: Tally, index: int, seen: Observation) -> bool:
         if seen.failure is not None:
-            tally.failures[place] = seen.failure
+            tally.failures[index] = seen.failure
             return False
         return self.assertion.holds(seen.numbers)

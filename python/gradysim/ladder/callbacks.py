@@ -69,7 +69,7 @@ class Cause(NamedTuple):
     """Where a callback comes from: the timer or message number `number` of its kind that another one made.
 
     Attributes:
-        callback: Its place in the log; ~ID for messages of a node with a native protocol.
+        callback: Its index in the log; ~ID for messages of a node with a native protocol.
         kind: `timer NAME` without numbers, or the destination of a message. Native: what sent the message.
         number: 0 for the first one of this kind in that callback; native: of the run.
     """
@@ -114,7 +114,7 @@ class CallbackLog:
 
     Attributes:
         callbacks: The calls.
-        canceled: {timer that was canceled: (place of the callback that did it, its due time in ns)}.
+        canceled: {timer that was canceled: (index of the callback that did it, its due time in ns)}.
     """
 
     callbacks: list[Callback] = field(default_factory=list)
@@ -143,7 +143,7 @@ class _NodeLog:
         self._log, self._run, self._node = log, run, node
         self._provider = provider
         self._callback: Callback | None = None
-        self._place = 0
+        self._index = 0
         self._counts: Counter[str] = Counter()
         self._made: Counter[str] = Counter()
         self._pending: defaultdict[str, list[tuple[float, int, Cause | None]]] = defaultdict(list)
@@ -183,7 +183,7 @@ class _NodeLog:
             callback.position = arguments[0].current_position
         callback.number = self._counts[callback.name]
         self._counts[callback.name] += 1
-        self._callback, self._place = callback, len(self._log.callbacks)
+        self._callback, self._index = callback, len(self._log.callbacks)
         self._log.callbacks.append(callback)
         self._made.clear()
         return callback
@@ -201,7 +201,7 @@ class _NodeLog:
             return None
         number = self._made[kind]
         self._made[kind] += 1
-        return Cause(self._place, kind, number)
+        return Cause(self._index, kind, number)
 
     def _add(self, action: Action, what: str | int, value: object) -> None:
         if self._callback is not None:
@@ -237,7 +237,7 @@ class _NodeLog:
         for timestamp, _, cause in self._pending.pop(timer, ()):
             if cause is not None and self._callback is not None:
                 due_ns = self._now_ns() + round((timestamp - own_time) * _NS_PER_S)
-                self._log.canceled[cause] = (self._place, due_ns)
+                self._log.canceled[cause] = (self._index, due_ns)
         self._add("cancel", timer, None)
 
 

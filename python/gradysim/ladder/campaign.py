@@ -106,17 +106,17 @@ class Campaign:
         """Return those of these effects that have what they need: collisions need airtime."""
         return working(effects, self.levels)
 
-    def scenario(self, effects: Effects, place: int) -> Scenario:
-        """Return the scenario of the run at position `place` with these effects. Raises ConfigError."""
-        powers, ranges = self._fixed_settings(place)
+    def scenario(self, effects: Effects, index: int) -> Scenario:
+        """Return the scenario of the run at `index` with these effects. Raises ConfigError."""
+        powers, ranges = self._fixed_settings(index)
         left_out = settings_of(effects, self.levels)
-        return self._study([*powers, *left_out, *ranges], added_sections(effects, self.levels))[place]
+        return self._study([*powers, *left_out, *ranges], added_sections(effects, self.levels))[index]
 
     def observations(
         self,
         executor: Executor | None,
         effects: Effects,
-        places: Iterable[int],
+        indices: Iterable[int],
         quantities: Collection[str] = (),
         jitter: Jitter | None = None,
     ) -> Iterator[Observation]:
@@ -128,7 +128,7 @@ class Campaign:
         Args:
             executor: Executes the runs.
             effects: Names of levels.
-            places: Positions of the runs.
+            indices: Indices of the runs.
             quantities: Names that the runs must have.
             jitter: A delay of timers.
 
@@ -136,11 +136,11 @@ class Campaign:
             ConfigError: No run has a quantity of that name.
         """
         futures: list[Future[Observation]] = []
-        for place in places:
-            scenario = self.scenario(effects, place)
+        for index in indices:
+            scenario = self.scenario(effects, index)
             seen = None if self._kept is None else self._kept.find(scenario, jitter, quantities)
             if seen is None:
-                future = submitted(executor, self.observe, effects, place, jitter, quantities)
+                future = submitted(executor, self.observe, effects, index, jitter, quantities)
                 future.add_done_callback(partial(self._done, scenario, jitter))
             else:
                 future = Future()
@@ -172,17 +172,17 @@ class Campaign:
                 raise unknown_name(f"no quantity is called `{unknown}`", unknown, sorted(known))
             yield seen
 
-    def record(self, effects: Effects, place: int, path: Path, log: CallbackLog | None = None) -> Observation:
+    def record(self, effects: Effects, index: int, path: Path, log: CallbackLog | None = None) -> Observation:
         """Write the replay of the run at a position with these effects, and return what it showed.
 
         If the run fails, the replay and the log of its callbacks end there. Raises OSError.
         """
-        return self.observe(effects, place, replay=path, log=log)
+        return self.observe(effects, index, replay=path, log=log)
 
     def observe(
         self,
         effects: Effects,
-        place: int,
+        index: int,
         jitter: Jitter | None = None,
         quantities: Collection[str] = (),
         *,
@@ -194,7 +194,7 @@ class Campaign:
         What protocols print is discarded. With `replay`, the replay of the run is written there; otherwise
         the run is faster. `log` gets the callbacks.
         """
-        scenario = self.scenario(effects, place)
+        scenario = self.scenario(effects, index)
         failure = run = None
         options: dict[str, Any] = {} if replay is None else {"replay": ReplayWriter(replay)}
         try:
@@ -239,9 +239,9 @@ class Campaign:
             )
         return self._studies[key]
 
-    def _fixed_settings(self, place: int) -> tuple[list[str], list[str]]:
+    def _fixed_settings(self, index: int) -> tuple[list[str], list[str]]:
         """Return the settings that all levels of a run share: of powers and of ranges."""
-        scenario = self._full[place]
+        scenario = self._full[index]
         key = (id(scenario.nodes), id(scenario.medium))
         if key not in self._fixed:
             powers = power_settings(scenario)
@@ -249,6 +249,6 @@ class Campaign:
             if powers:
                 names = [level.name for level in LEVELS]
                 noiseless = settings_of(names[: names.index(_LAST_WITHOUT_NOISE) + 1], self.levels)
-                ranges = range_settings(self._study([*powers, *noiseless], ())[place])
+                ranges = range_settings(self._study([*powers, *noiseless], ())[index])
             self._fixed[key] = (powers, ranges, scenario)  # the scenario keeps the ids from being used again
         return self._fixed[key][:2]

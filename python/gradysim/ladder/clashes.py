@@ -286,7 +286,7 @@ class _Run:
         for time_ns, node in due:
             first = bisect_left(others, (math.ceil(time_ns - window_ns), -1))
             last = bisect_right(others, (math.floor(time_ns + window_ns), math.inf))
-            together += any(others[place][1] != node for place in range(first, last))
+            together += any(others[index][1] != node for index in range(first, last))
             expected += 1 - math.exp(-rate * (len(others) - frames_of[node]))
         return together / len(due), expected / len(due)
 

@@ -132,12 +132,12 @@ def is_fixable(pattern: Pattern) -> bool:
 def _diagnosed(campaign: Campaign, executor: Executor | None) -> tuple[Diagnosis, Mapping[int, Failure]]:
     """Record all runs of a campaign, and return their clashes and failures."""
     futures: list[Future[tuple[Diagnosis, Failure | None]]] = []
-    for place in range(len(campaign)):
-        campaign.scenario(campaign.all_effects, place)  # processes that are forked have it
-        futures.append(submitted(executor, _diagnosis, campaign, place))
+    for index in range(len(campaign)):
+        campaign.scenario(campaign.all_effects, index)  # processes that are forked have it
+        futures.append(submitted(executor, _diagnosis, campaign, index))
     diagnoses: list[Diagnosis] = []
     failures: dict[int, Failure] = {}
-    for place, future in enumerate(futures):
+    for index, future in enumerate(futures):
         try:
             diagnosis, failure = future.result()
         except Exception as error:  # the process was killed
@@ -145,14 +145,14 @@ def _diagnosed(campaign: Campaign, executor: Executor | None) -> tuple[Diagnosis
         else:
             diagnoses.append(diagnosis)
         if failure is not None:
-            failures[place] = failure
+            failures[index] = failure
     return merged(diagnoses), failures
 
 
-def _diagnosis(campaign: Campaign, place: int) -> tuple[Diagnosis, Failure | None]:
+def _diagnosis(campaign: Campaign, index: int) -> tuple[Diagnosis, Failure | None]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "run.html")
-        failure = campaign.record(campaign.all_effects, place, path).failure
+        failure = campaign.record(campaign.all_effects, index, path).failure
         if failure is not None and not path.stat().st_size:  # before its start
             return merged([]), failure
         return diagnose(read_replay(path)), failure
@@ -187,7 +187,7 @@ def _trial(jitter_s: float, seen: Sequence[Observation], metric: str | None) -> 
         to_others / receptions if receptions else 0.0,
         losses.most_common(1)[0][0] if losses else "",
         sum(values) / len(values) if metric and values else None,
-        {place: each.failure for place, each in enumerate(seen) if each.failure is not None},
+        {index: each.failure for index, each in enumerate(seen) if each.failure is not None},
     )
 
 

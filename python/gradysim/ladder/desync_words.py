@@ -78,15 +78,15 @@ def _trial_failure_sentences(found: Desync) -> Iterator[str]:
         yield f"With it, {len(chosen.failures)} of {_runs(found.runs_per_trial)} fail; without it, {without}."
     first = next((trial for trial in found.trials if trial.failures), None)
     if first is not None and not without:
-        place, failure = next(iter(first.failures.items()))
-        yield f"With a jitter of up to {text_of_time(first.jitter_s)}, run {place} fails: {failure}."
+        index, failure = next(iter(first.failures.items()))
+        yield f"With a jitter of up to {text_of_time(first.jitter_s)}, run {index} fails: {failure}."
 
 
 def _failure_sentences(failures: Mapping[int, Failure], run_count: int) -> Iterator[str]:
     if failures and len(failures) == run_count:
         yield f"All {_runs(run_count)} failed. What is said below is about the time before."
-    for place, failure in list(failures.items())[:_MOST_FAILURES]:
-        yield f"Run {place} failed: {failure}."
+    for index, failure in list(failures.items())[:_MOST_FAILURES]:
+        yield f"Run {index} failed: {failure}."
     if len(failures) > _MOST_FAILURES:
         yield f"So did {len(failures) - _MOST_FAILURES} other runs."
 

@@ -94,7 +94,7 @@ class _Finding(NamedTuple):
 
     Attributes:
         time_ns: Its time where it works, or else where it fails.
-        before: Its place in the log of the run that works; -1 if it is not there.
+        before: Its index in the log of the run that works; -1 if it is not there.
         after: Likewise, of the run that fails.
         outcomes: What happens to its message in both runs; empty strings if it has none or arrives in both.
     """
@@ -109,8 +109,8 @@ class _Late(NamedTuple):
     """A timer that only one run cancels in time.
 
     Attributes:
-        cancels: Places of the callback that cancels it, where it works and where it fails.
-        expires: Places of the timer; -1 where it is canceled.
+        cancels: Indices of the callback that cancels it, where it works and where it fails.
+        expires: Indices of the timer; -1 where it is canceled.
         expires_ns: When it expires, or would.
         is_later: Whether the run that fails cancels too late.
     """
@@ -145,9 +145,9 @@ class _Comparison:
         return self._explained(found)
 
     def _paired(self) -> Mapping[int, int]:
-        """Return {place where it works: place where it fails} of the callbacks with equal causes."""
-        places = {
-            _key(callback, callback.cause): place for place, callback in enumerate(self._works.callbacks)
+        """Return {index where it works: index where it fails} of the callbacks with equal causes."""
+        indices = {
+            _key(callback, callback.cause): index for index, callback in enumerate(self._works.callbacks)
         }
         before_of: dict[int, int] = {}
         after_of: dict[int, int] = {}
@@ -157,7 +157,7 @@ class _Comparison:
                 cause = _mapped(cause, before_of)
                 if cause is None:
                     continue
-            before = places.get(_key(callback, cause))
+            before = indices.get(_key(callback, cause))
             if before is not None and before not in after_of:
                 before_of[after] = before
                 after_of[before] = after
@@ -170,14 +170,14 @@ class _Comparison:
                 yield _Finding(one.time_ns, before, after)
 
     def _only_where_it_works(self) -> Iterator[_Finding]:
-        for place, outcome in _only(self._works, self._fails, self._after_of):
+        for index, outcome in _only(self._works, self._fails, self._after_of):
             outcomes = ("delivered", outcome) if outcome else ("", "")
-            yield _Finding(self._works.callbacks[place].time_ns, place, -1, outcomes)
+            yield _Finding(self._works.callbacks[index].time_ns, index, -1, outcomes)
 
     def _only_where_it_fails(self) -> Iterator[_Finding]:
-        for place, outcome in _only(self._fails, self._works, self._before_of):
+        for index, outcome in _only(self._fails, self._works, self._before_of):
             outcomes = (outcome, "delivered") if outcome else ("", "")
-            yield _Finding(self._fails.callbacks[place].time_ns, -1, place, outcomes)
+            yield _Finding(self._fails.callbacks[index].time_ns, -1, index, outcomes)
 
     def _rank(self, found: _Finding) -> int:
         """Return how little a finding tells; the first one of the lowest rank is the answer."""
@@ -235,7 +235,7 @@ class _Comparison:
     def _late_cancels(self) -> Mapping[tuple[int, int], _Late]:
         """Timers that one run cancels, and the other one too late.
 
-        By the two places of the callback that cancels, and by those of the timer.
+        By the two indices of the callback that cancels, and by those of the timer.
         """
         found: dict[tuple[int, int], _Late] = {}
         for canceler, late, timer, due_ns in _late(self._works, self._fails, self._after_of):
@@ -407,8 +407,8 @@ def _key(callback: Callback, cause: Cause | None) -> object:
 
 def _mapped(cause: Cause, partner: Mapping[int, int]) -> Cause | None:
     """Return a cause as the other run has it; None if its callback has no partner there."""
-    place = partner.get(cause.callback) if cause.callback >= 0 else cause.callback
-    return None if place is None else cause._replace(callback=place)
+    index = partner.get(cause.callback) if cause.callback >= 0 else cause.callback
+    return None if index is None else cause._replace(callback=index)
 
 
 def _only(here: Recording, there: Recording, partner: Mapping[int, int]) -> Iterator[tuple[int, str]]:
@@ -416,17 +416,17 @@ def _only(here: Recording, there: Recording, partner: Mapping[int, int]) -> Iter
 
     Their timer or message exists in both runs, or what made it is the difference.
     """
-    for place, callback in enumerate(here.callbacks):
-        if place in partner or callback.time_ns >= there.end_ns:
+    for index, callback in enumerate(here.callbacks):
+        if index in partner or callback.time_ns >= there.end_ns:
             continue
         if callback.name == "telemetry":
-            yield place, ""
+            yield index, ""
         elif callback.cause is not None and (cause := _mapped(callback.cause, partner)) is not None:
             if callback.name != "packet":
                 if cause in there.recorded.log.canceled:
-                    yield place, ""
+                    yield index, ""
             elif outcome := there.outcome(cause, callback.node):
-                yield place, outcome
+                yield index, outcome
 
 
 def _late(
@@ -434,12 +434,12 @@ def _late(
 ) -> Iterator[tuple[int, int, int, int]]:
     """Yield timers that `here` cancels, and the other run too late.
 
-    Each has the place of the callback that cancels it in both runs, the place of the timer there, and when it
+    Each has the index of the callback that cancels it in both runs, the index of the timer there, and when it
     would have expired here, in ns.
     """
     timers = {
-        each.cause: place
-        for place, each in enumerate(there.callbacks)
+        each.cause: index
+        for index, each in enumerate(there.callbacks)
         if each.cause is not None and each.frame is None
     }
     for cause, (canceler, due_ns) in here.recorded.log.canceled.items():

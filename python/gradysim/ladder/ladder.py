@@ -26,7 +26,7 @@ class Rung:
         metric: Mean over the runs that came to their end, with its interval; None if all of them failed.
         change: From the level before, paired by seed; None at the first level that was run, and without
             pairs.
-        failures: Why runs failed: {position of the run: its exception}.
+        failures: Why runs failed: {index of the run: its exception}.
         loss: The most frequent outcome of lost receptions or messages; "" below 0.05 %.
         loss_ratio: Its share of the receptions within the range, or of the messages.
     """
@@ -76,7 +76,7 @@ def climb(campaign: Campaign, metric: str, levels: range, executor: Executor | N
             compare_pairs(*zip(*pairs, strict=True), binary=binary).difference if pairs else None,
             loss,
             ratio,
-            {place: each.failure for place, each in enumerate(seen) if each.failure is not None},
+            {index: each.failure for index, each in enumerate(seen) if each.failure is not None},
         )
         before = values
 

@@ -38,16 +38,16 @@ class Recorded:
     queue_capacity: Mapping[int, int]
 
 
-def record(campaign: Campaign, effects: Effects, place: int, path: Path) -> Recorded:
+def record(campaign: Campaign, effects: Effects, index: int, path: Path) -> Recorded:
     """Write the replay of the run at a position with these effects, and return what else it left.
 
     An exception of a protocol ends the run, and is part of the result. What protocols print is discarded.
     """
     log = CallbackLog()
-    seen = campaign.record(effects, place, path, log)
+    seen = campaign.record(effects, index, path, log)
     capacities = {
         spec.id: sum(map(_queue_capacity, node_config(spec).wlan))
-        for spec in campaign.scenario(effects, place).nodes
+        for spec in campaign.scenario(effects, index).nodes
     }
     return Recorded(log, seen.messages, capacities)
 
@@ -56,9 +56,9 @@ def _queue_capacity(interface: "InterfaceConfig") -> int:
     return (interface.csma if "802154" in interface.typename else interface.mac).queue_capacity
 
 
-def record_to_files(campaign: Campaign, effects: Effects, place: int, path: Path, rest: Path) -> None:
+def record_to_files(campaign: Campaign, effects: Effects, index: int, path: Path, rest: Path) -> None:
     """Write the replay to `path` and what `record` returns to `rest`: processes pass on little."""
-    recorded = record(campaign, effects, place, path)
+    recorded = record(campaign, effects, index, path)
     with rest.open("wb") as file:
         pickle.dump(recorded, file)
 
@@ -220,11 +220,11 @@ class Recording:
     def _messages(self) -> "defaultdict[int, deque[_Message]]":
         """Return {node: messages in the order in which it sent them}."""
         found: defaultdict[int, deque[_Message]] = defaultdict(deque)
-        for place, callback in enumerate(self.callbacks):
+        for index, callback in enumerate(self.callbacks):
             numbers: Counter[str | int] = Counter()
             for effect in callback.effects:
                 if effect.action == "send":
-                    cause = Cause(place, effect.what, numbers[effect.what])
+                    cause = Cause(index, effect.what, numbers[effect.what])
                     found[callback.node].append(_Message(cause, str(effect.value)))
                     numbers[effect.what] += 1
         return found

@@ -40,7 +40,7 @@ class Explanation:
 def record_and_explain(
     campaign: Campaign,
     effects: tuple[Effects, Effects],
-    place: int,
+    index: int,
     files: tuple[Path, Path],
     executor: Executor | None = None,
 ) -> Explanation:
@@ -49,7 +49,7 @@ def record_and_explain(
     Args:
         campaign: The configuration.
         effects: Those with which it works, and those with which it fails.
-        place: Position of the run.
+        index: Index of the run.
         files: Replays to write.
         executor: Executes the runs, see `Campaign.observations`; None for this process.
     """
@@ -57,7 +57,7 @@ def record_and_explain(
         rests = [Path(folder, name) for name in ("works", "fails")]
         recorded = [
             submitted(executor, record_to_files, campaign, *arguments)
-            for arguments in zip(effects, (place, place), files, rests, strict=True)
+            for arguments in zip(effects, (index, index), files, rests, strict=True)
         ]
         for each in recorded:
             each.result()

@@ -70,9 +70,9 @@ def _exception_sentences(bisection: Bisection) -> Iterator[str]:
     for number, level in enumerate(bisection.campaign.levels):
         tally = bisection.at_level(number)
         if tally.failures:
-            place, failure = min(tally.failures.items())
+            index, failure = min(tally.failures.items())
             yield (
-                f"{_count(tally)} at level {number}, {level.name}, with an exception. Run {place}: {failure}."
+                f"{_count(tally)} at level {number}, {level.name}, with an exception. Run {index}: {failure}."
             )
             return
 

@@ -94,7 +94,7 @@ def defaults_of(network: NedNetwork, entries: Lines, lines: Lines, in_force: Lin
         yield from default(f"{node.written}.{typename}", f"{node.first}.{typename}", f'"{DEFAULT_MOBILITY}"')
         for name, value in {
             **MOBILITY_DEFAULTS.get(mobility, {}),
-            **_place(node, mobility, entries, lines),
+            **_positions_of(node, mobility, entries, lines),
         }.items():
             yield from default(f"{node.written}.mobility.{name}", f"{node.first}.mobility.{name}", value)
 
@@ -105,23 +105,23 @@ def _mobility(node: NedNode, entries: Lines) -> str:
     return unquoted(text) if is_quoted(text) else text
 
 
-def _place(node: NedNode, mobility: str, entries: Lines, lines: Lines) -> dict[str, str]:
+def _positions_of(node: NedNode, mobility: str, entries: Lines, lines: Lines) -> dict[str, str]:
     """Return {parameter: value} of where a node starts if no line says it."""
     if mobility in (CIRCLE, RECTANGLE):
         return {}
     reads_display = "false" not in _texts_for(f"{node.first}.mobility.initFromDisplayString", entries)
-    if reads_display and node.place:
-        return {"initialX": f"{node.place[0]}m", "initialY": f"{node.place[1]}m"}
+    if reads_display and node.position:
+        return {"initialX": f"{node.position[0]}m", "initialY": f"{node.position[1]}m"}
     start = f"{node.first}.mobility.initial"
-    places: dict[str, str] = {}
+    positions: dict[str, str] = {}
     for axis in "XY":
         area = [
             next(_texts_for(f"{node.first}.mobility.constraintArea{end}{axis}", entries), "")
             for end in ("Min", "Max")
         ]
         if not _is_set(f"{start}{axis}", lines) and all(area):
-            places[f"initial{axis}"] = f"uniform({area[0]}, {area[1]})"
-    return places
+            positions[f"initial{axis}"] = f"uniform({area[0]}, {area[1]})"
+    return positions
 
 
 def _is_set(path: str, lines: Lines) -> bool:

@@ -114,8 +114,8 @@ class LineTranslator:
         if not self._scene.is_geographic(mobility):
             return left_out(entry, "without coordinateSystemModule it had no effect")
         try:
-            place = number_of("m" if coordinate == "initialZ" else "deg", entry.text)
-            meters = self._scene.coordinate_m(entry, "XYZ".index(coordinate[-1]), place)
+            value = number_of("m" if coordinate == "initialZ" else "deg", entry.text)
+            meters = self._scene.coordinate_m(entry, "XYZ".index(coordinate[-1]), value)
         except BadValue as error:
             return Outcome(Action.TO_WRITE, entry, f"{target} = ...", f"{entry.text}: {error}")
         return renamed(

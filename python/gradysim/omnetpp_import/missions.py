@@ -12,8 +12,8 @@ _WAYPOINT, _BACK = 16, 120
 """Commands. The second one is GrADyS' own."""
 
 
-def read_mission(file: Path, place: Callable[[float, float, float], Position]) -> str:
-    """Return a mission as `FlyingProtocol.mission` has it. `place` converts the coordinates of the file.
+def read_mission(file: Path, to_position: Callable[[float, float, float], Position]) -> str:
+    """Return a mission as `FlyingProtocol.mission` has it. `to_position` converts coordinates of the file.
 
     Raises:
         ValueError: The file cannot be read, or it has more than waypoints and the way back.
@@ -36,7 +36,7 @@ def read_mission(file: Path, place: Callable[[float, float, float], Position]) -
         if BACK in parts or command not in (_WAYPOINT, _BACK) or hold:
             expected = f"expected {_WAYPOINT} without a hold time, or {_BACK} at the end"
             raise ValueError(f"{file}:{number}: command {command:g} is not translated; {expected}")
-        parts.append(BACK if command == _BACK else _written(place(latitude, longitude, altitude)))
+        parts.append(BACK if command == _BACK else _written(to_position(latitude, longitude, altitude)))
     return ", ".join(parts)
 
 

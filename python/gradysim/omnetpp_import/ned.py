@@ -1,4 +1,4 @@
-"""What NED files declare: networks with the radio medium, the nodes with their numbers, types and places.
+"""What NED files declare: networks with the radio medium, the nodes with their numbers, types and positions.
 
 Only declarations of this form are read: `name[size]: Type`, `name: <default("Type")> like ...`,
 `int size = default(2)` and `@display("p=100,200")`.
@@ -19,7 +19,7 @@ _SUBMODULE = re.compile(
     r"[^;{]*(?:\{|;)"
 )
 _PARAMETER = re.compile(r"\bint\s+(\w+)\s*=\s*(?:default\(\s*)?(\d+)")
-_PLACE = re.compile(r'@display\(\s*"[^"]*?\bp=(-?[\d.]+),(-?[\d.]+)(?=[;"])')
+_POSITION = re.compile(r'@display\(\s*"[^"]*?\bp=(-?[\d.]+),(-?[\d.]+)(?=[;"])')
 
 
 @dataclass(frozen=True)
@@ -30,13 +30,13 @@ class NedNode:
         name: Its name.
         size: The parameter or number of a vector; "" for a single node.
         type: A key of `NODE_TYPES`.
-        place: x and y of its display string in meters, or None.
+        position: x and y of its display string in meters, or None.
     """
 
     name: str
     size: str
     type: str
-    place: tuple[str, str] | None = None
+    position: tuple[str, str] | None = None
 
     @property
     def written(self) -> str:
@@ -133,9 +133,9 @@ def _network(
                 medium = medium or kind
             elif kind in types:
                 within = body[match.end() : following.start() if following else len(body)]
-                place = None if match[2] else _PLACE.search(within)
+                found = None if match[2] else _POSITION.search(within)
                 nodes.append(
-                    NedNode(match[1], match[2] or "", types[kind], (place[1], place[2]) if place else None)
+                    NedNode(match[1], match[2] or "", types[kind], (found[1], found[2]) if found else None)
                 )
         chain = base
     return NedNetwork(source, medium, tuple(nodes), sizes)

@@ -143,13 +143,14 @@ class ProtocolTranslator:
         """Return the value with missions instead of the names of their files. Raises ValueError."""
         is_geographic = self._scene.is_geographic(entry.key)
 
-        def place(*coordinates: float) -> Position:
+        def to_position(*coordinates: float) -> Position:
             x, y, z = coordinates
             return self._scene.position(entry, x, y, z) if is_geographic else (x, y, z)
 
         folder = entry.source.file.parent
         missions = {
-            file: f'"{read_mission(folder / unquoted(file), place)}"' for file in _STRING.findall(entry.text)
+            file: f'"{read_mission(folder / unquoted(file), to_position)}"'
+            for file in _STRING.findall(entry.text)
         }
         if variable := _NAMED_VALUES.match(entry.text):  # whose values stay the names of the files
             subjects = [entry.text, *[f"${{{variable[1]}}}"] * len(missions)]

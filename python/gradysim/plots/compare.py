@@ -69,10 +69,10 @@ def draw_changes(axes: "Axes", numbers: Numbers) -> "Axes":
     axes.axvline(0, color="gray", linewidth=0.6)
     for index, (curve, style) in enumerate(zip(curves, styles_of(curves), strict=True)):
         shift = (index + 0.5) / len(curves) - 0.5
-        places = [numbers.categories.index(quantity) + 0.6 * shift for quantity in curve.x]
+        positions = [numbers.categories.index(quantity) + 0.6 * shift for quantity in curve.x]
         means, low, high = (curve.columns[name] for name in ("percent", "percent_low", "percent_high"))
         style["linestyle"] = "none"
-        axes.errorbar(means, places, xerr=bars(means, low, high), label=curve.label, **style)
+        axes.errorbar(means, positions, xerr=bars(means, low, high), label=curve.label, **style)
     set_texts(axes, replace(numbers, categories=()))
     axes.set_yticks(range(len(numbers.categories)), list(numbers.categories))
     axes.set_ylim(len(numbers.categories) - 0.5, -0.5)

@@ -40,8 +40,8 @@ def line_numbers(runs: Runs, *, x: str, y: str, by: Iterable[str] | None = None)
     for values, alike in series_of(runs, by, x):
         by_x = grouped(alike, lambda run: variables_of(run).get(x))
         found = {
-            place: numbers
-            for value, place in axis.places.items()
+            position: numbers
+            for value, position in axis.positions.items()
             if (numbers := QuantityTable(by_x.get(value, ())).numbers(y))
         }
         if found:
@@ -80,10 +80,10 @@ def diff_numbers(
             continue
         changes = Pairs.of(of_base, alike, others).changes_of([y], binary)
         by_x = {change.values[x]: change for change in changes if change.difference}
-        drawn = [(place, by_x[value]) for value, place in axis.places.items() if value in by_x]
+        drawn = [(position, by_x[value]) for value, position in axis.positions.items() if value in by_x]
         if drawn:
             columns = {
-                axis.label: [place for place, _ in drawn],
+                axis.label: [position for position, _ in drawn],
                 **columns_of([change.difference for _, change in drawn if change.difference]),
                 "pairs": [change.pairs for _, change in drawn],
                 "higher": [change.higher for _, change in drawn],
@@ -106,11 +106,11 @@ def draw_line(axes: "Axes", numbers: Numbers) -> "Axes":
         means, low, high = (curve.columns[name] for name in ("mean", "low", "high"))
         if numbers.categories:
             shift = _WIDTH_OF_CATEGORY * ((index + 0.5) / len(curves) - 0.5)
-            places: Sequence[float] = [numbers.categories.index(name) + shift for name in curve.x]
+            positions: Sequence[float] = [numbers.categories.index(name) + shift for name in curve.x]
             style["linestyle"] = "none"
         else:
-            places = curve.x
-        axes.errorbar(places, means, yerr=bars(means, low, high), label=curve.label, **style)
+            positions = curve.x
+        axes.errorbar(positions, means, yerr=bars(means, low, high), label=curve.label, **style)
     set_texts(axes, numbers)
     if numbers.categories:
         axes.set_xlim(-0.5, len(numbers.categories) - 0.5)
@@ -135,7 +135,7 @@ def draw_diff(axes: "Axes", numbers: Numbers) -> "Axes":
     axes.legend()
     for curve, container in zip(numbers.curves, axes.containers, strict=False):
         points = container[0]
-        for place, mean, higher, pairs in zip(
+        for position, mean, higher, pairs in zip(
             points.get_xdata(),
             curve.columns["mean"],
             curve.columns["higher"],
@@ -143,6 +143,6 @@ def draw_diff(axes: "Axes", numbers: Numbers) -> "Axes":
             strict=True,
         ):
             axes.annotate(
-                f"{higher}/{pairs}", (place, mean), (4, 3), textcoords="offset points", fontsize="x-small"
+                f"{higher}/{pairs}", (position, mean), (4, 3), textcoords="offset points", fontsize="x-small"
             )
     return axes

@@ -66,10 +66,10 @@ def draw_map(axes: "Axes", numbers: Numbers) -> "Axes":
     standing: dict[str, list[tuple[float, float]]] = {}
     for curve in numbers.curves:
         if curve not in moving:
-            place = (curve.x[-1], curve.columns["y_m"][-1])
-            standing.setdefault(group_of(curve.label), []).append(place)
-    for (group, places), marker in zip(standing.items(), MARKERS[1:] * len(standing), strict=False):
-        x, y = zip(*places, strict=True)
+            end = (curve.x[-1], curve.columns["y_m"][-1])
+            standing.setdefault(group_of(curve.label), []).append(end)
+    for (group, ends), marker in zip(standing.items(), MARKERS[1:] * len(standing), strict=False):
+        x, y = zip(*ends, strict=True)
         axes.plot(
             x, y, label=group, marker=marker, color=COLORS[-1], linestyle="none", markerfacecolor="none"
         )

@@ -75,17 +75,17 @@ class XAxis:
 
     Attributes:
         label: Name of the variable, with its unit.
-        places: {value in the results: number, or string if not all values are numbers}, in the order of the
+        positions: {value in the results: number, or string if not all values are numbers}, in the order of
             axis.
     """
 
     label: str
-    places: Mapping[Any, Any]
+    positions: Mapping[Any, Any]
 
     @property
     def categories(self) -> tuple[str, ...]:
         """The values, if they are not numbers."""
-        values = list(self.places.values())
+        values = list(self.positions.values())
         return tuple(values) if any(isinstance(value, str) for value in values) else ()
 
 
@@ -101,7 +101,7 @@ def x_axis(runs: Runs, variable: str) -> XAxis:
         return XAxis(variable, {value: str(value) for value in values})
     unit = known[0].unit
     if unit is None:
-        places = {value: float(number.number) for value, number in numbers.items() if number}
+        positions = {value: float(number.number) for value, number in numbers.items() if number}
     else:
         if any(number.unit != unit for number in known):  # the SI unit
             unit = next(
@@ -109,9 +109,9 @@ def x_axis(runs: Runs, variable: str) -> XAxis:
                 for each in UNITS.values()
                 if each.dimension is unit.dimension and each.factor == 1 and not each.logarithmic
             )
-        places = {value: number.to(unit) for value, number in numbers.items() if number}
+        positions = {value: number.to(unit) for value, number in numbers.items() if number}
     label = f"{variable} ({unit.name})" if unit else variable
-    return XAxis(label, dict(sorted(places.items(), key=lambda each: each[1])))
+    return XAxis(label, dict(sorted(positions.items(), key=lambda each: each[1])))
 
 
 def _quantity(value: object) -> Quantity | None:

@@ -49,15 +49,15 @@ def outcomes_numbers(
     counts = {run: _counts(each, ledger, kind, set(omit)) for run, each in by_run.items()}
     axis = x_axis(runs, x) if x else None
     bars: list[tuple[dict[str, Any], list[dict[str, int]]]] = []
-    for place in axis.places if axis else [None]:
+    for x_value in axis.positions if axis else [None]:
         for values, alike in series_of(runs, by, x):
             found = [
                 counts[id(run)]
                 for run in alike
-                if sum(counts[id(run)].values()) and (x is None or variables_of(run).get(x) == place)
+                if sum(counts[id(run)].values()) and (x is None or variables_of(run).get(x) == x_value)
             ]
             if found:
-                bars.append(({**({x: place} if x else {}), **values}, found))
+                bars.append(({**({x: x_value} if x else {}), **values}, found))
     outcomes = dict.fromkeys(name for _, found in bars for each in found for name, n in each.items() if n)
     curves = []
     for outcome in outcomes:

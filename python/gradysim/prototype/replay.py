@@ -61,10 +61,10 @@ class PrototypeRecorder(TableRecorder):
         """Return the same path, which records the node at intervals."""
 
         def position(time_s: float) -> Position:
-            place = path(time_s)
+            point = path(time_s)
             self.close_if_long()
-            self.sampled(node_id, place, _SAMPLING_S)
-            return place
+            self.sampled(node_id, point, _SAMPLING_S)
+            return point
 
         return position
 
@@ -120,6 +120,6 @@ def _text_of(command: MobilityCommand) -> str:
     """Return a command in the format of the engine's recorder."""
     if command.command_type == MobilityCommandType.SET_SPEED:
         return f"fly at {command.param_1:g} m/s"
-    place = ", ".join(f"{value:g}" for value in (command.param_1, command.param_2, command.param_3))
+    point = ", ".join(f"{value:g}" for value in (command.param_1, command.param_2, command.param_3))
     unit = " m" if command.command_type == MobilityCommandType.GOTO_COORDS else ""
-    return f"go to {place}{unit}"
+    return f"go to {point}{unit}"

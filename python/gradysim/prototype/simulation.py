@@ -100,7 +100,7 @@ def build_simulation(
 
 
 def check_scenario(scenario: Scenario) -> None:
-    """Raise ConfigError, with the place in the .ini file, when a value is outside the simulator's range.
+    """Raise ConfigError, with the source in the .ini file, when a value is outside the simulator's range.
 
     Building the simulation makes the same checks. Use this function to check a study before its first run.
     """
@@ -178,7 +178,7 @@ def communication_handler(scenario: Scenario, ledger: DeliveryLedger | None = No
 
 
 def configure_mobility(mobility: MasslessMobilityHandler, spec: NodeSpec) -> None:
-    """Set how one node moves. Raises ConfigError, with its place, when a value is outside its range."""
+    """Set how one node moves. Raises ConfigError, with its source, when a value is outside its range."""
     typename = spec.mobility.get("typename")
     stationary = typename is not None and typename.value == STATIONARY
     path = path_of(spec.mobility, spec.initial_position)

@@ -26,9 +26,7 @@ class ReplaysBeside(PageServer):
             return self._files[path].read_bytes()
         if path != "/":
             return None
-        replays = {
-            f"{place}{self._query}": name for place, name in zip(self._files, self._names, strict=True)
-        }
+        replays = {f"{file}{self._query}": name for file, name in zip(self._files, self._names, strict=True)}
         return page_beside(f"/viewer{self._query}", replays).encode()
 
 

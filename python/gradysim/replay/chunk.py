@@ -165,7 +165,7 @@ def _sent(chunk: RawChunk) -> Sent:
         counts[0] += 1
         counts[1] += noticed + unnoticed
         counts[2] += unnoticed
-    frames, receptions, unnoticed_by = ([counts[place] for counts in sums.values()] for place in range(3))
+    frames, receptions, unnoticed_by = ([counts[column] for counts in sums.values()] for column in range(3))
     return {
         "node": [node for node, _ in sums],
         "destination": [destination for _, destination in sums],
@@ -198,12 +198,12 @@ def unpack(data: bytes) -> Chunk:
         (length,) = struct.unpack_from("<I", data)
         header = json.loads(data[4 : 4 + length])
         chunk = Chunk(header["start_ns"], header["end_ns"], header["strings"])
-        place = 4 + length
+        offset = 4 + length
         for table, described in header["tables"].items():
             columns = chunk.tables[table] = {}
             for name, type_name, delta, size in described["columns"]:
-                columns[name] = _values(Column(name, type_name, delta), data[place : place + size])
-                place += size
+                columns[name] = _values(Column(name, type_name, delta), data[offset : offset + size])
+                offset += size
     except (struct.error, zlib.error, *_OF_OTHER_HEADERS) as error:
         raise ValueError(f"not a chunk of a replay: {error}") from error
     return chunk

@@ -40,7 +40,7 @@ class LiveView(PageServer):
         super().__init__(host, port, needs_token=True)
         self._described: Mapping[str, Any] | None = None
         self._end: Mapping[str, Any] | None = None
-        self._places: list[tuple[int, int]] = []
+        self._extents: list[tuple[int, int]] = []
         self.recorded_s = 0.0
         self.clocks: dict[Viewer, float] = {}
         self._cut_at = time.monotonic()
@@ -64,9 +64,9 @@ class LiveView(PageServer):
         data = pack(chunk)
         if self._history.closed:
             return
-        place = sum(self._places[-1]) if self._places else 0
-        os.pwrite(self._history.fileno(), data, place)
-        self._places.append((place, len(data)))
+        offset = sum(self._extents[-1]) if self._extents else 0
+        os.pwrite(self._history.fileno(), data, offset)
+        self._extents.append((offset, len(data)))
         self.recorded_s = chunk.end_ns / 1e9
         self._cut_at = time.monotonic()
         self._tell_news()
@@ -117,13 +117,13 @@ class LiveView(PageServer):
         while True:
             viewer.news.clear()
             # The run sets these in the opposite order.
-            end, places, run = self._end, self._places[sent:], self._described
+            end, extents, run = self._end, self._extents[sent:], self._described
             if run is not None and not has_run:
                 has_run = True
                 await viewer.send(json.dumps({"run": run}))
-            for place, length in places:
-                await viewer.send(os.pread(self._history.fileno(), length, place))
-            sent += len(places)
+            for offset, length in extents:
+                await viewer.send(os.pread(self._history.fileno(), length, offset))
+            sent += len(extents)
             if end is not None:
                 await viewer.send(json.dumps({"end": end}))
                 return

@@ -126,7 +126,7 @@ def losses_of(chunk: Chunk) -> Iterator[Loss]:
     interferers = _by_reception(chunk, "interferers", "node", "power_cdbm")
     for row, frame in enumerate(table["frame"]):
         receiver, start_ns = table["receiver"][row], frames["time_ns"][frame]
-        places = (paths.position(node, start_ns) for node in (frames["node"][frame], receiver))
+        positions = (paths.position(node, start_ns) for node in (frames["node"][frame], receiver))
         sent_dbm = _dbm(frames["power_cdbm"][frame])
         power_dbm = _dbm(table["power_cdbm"][row])
         gains = {name.replace("_", " "): table[f"{name}_cdb"][row] / 100 for name in _GAINS}
@@ -145,7 +145,7 @@ def losses_of(chunk: Chunk) -> Iterator[Loss]:
             _dbm(table["noise_cdbm"][row]),
             _dbm(table["interference_cdbm"][row]),
             None if sent_dbm is None else table["needed_cdb"][row] / 100,
-            math.dist(*places),
+            math.dist(*positions),
             path_loss_db,
             {name: gain for name, gain in gains.items() if gain},
             crossed,

@@ -195,9 +195,9 @@ class TableRecorder:
         self._write_leg(node, start_ns, duration_ns, start, end)
 
     def _write_leg(self, node: int, start_ns: int, duration_ns: int, start: Position, end: Position) -> None:
-        places = {f"{axis}0": value for axis, value in zip("xyz", start, strict=True)}
-        places |= {f"{axis}1": value for axis, value in zip("xyz", end, strict=True)}
-        self._row("legs", time_ns=start_ns, duration_ns=duration_ns, node=node, **places)
+        coordinates = {f"{axis}0": value for axis, value in zip("xyz", start, strict=True)}
+        coordinates |= {f"{axis}1": value for axis, value in zip("xyz", end, strict=True)}
+        self._row("legs", time_ns=start_ns, duration_ns=duration_ns, node=node, **coordinates)
 
     def _row(self, table: str, **values: float) -> None:
         columns = self._columns[table]

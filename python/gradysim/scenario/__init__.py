@@ -1,4 +1,4 @@
-"""Scenarios in .ini files: the grammar of OMNeT++, the names of INET, and errors with place and expectation.
+"""Scenarios in .ini files: the grammar of OMNeT++, the names of INET, and errors with source and expectation.
 
 `load_scenarios` reads a file in these steps:
 

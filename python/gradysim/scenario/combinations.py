@@ -23,8 +23,8 @@ def in_nesting_order(variables: Sequence[IterationVariable], wanted: Entry | Non
     """
     by_name = {variable.name: variable for variable in variables}
     named = [name.strip() for name in wanted.text.strip('"').split(",") if name.strip()] if wanted else []
-    for place, name in enumerate(named):
-        if wanted and name in named[:place]:
+    for index, name in enumerate(named):
+        if wanted and name in named[:index]:
             raise ConfigError.at(wanted.source, f"`{name}` stands there twice; expected each once")
         if wanted and name != _THE_OTHERS and name not in by_name:
             raise ConfigError.at(
@@ -62,20 +62,20 @@ class Combinations(Sequence[dict[str, str]]):
         return self._count
 
     @overload
-    def __getitem__(self, place: int) -> dict[str, str]: ...
+    def __getitem__(self, index: int) -> dict[str, str]: ...
 
     @overload
-    def __getitem__(self, place: slice) -> "list[dict[str, str]]": ...
+    def __getitem__(self, index: slice) -> "list[dict[str, str]]": ...
 
-    def __getitem__(self, place: int | slice) -> "dict[str, str] | list[dict[str, str]]":
-        if isinstance(place, slice):
-            return [self[each] for each in range(self._count)[place]]
-        place = range(self._count)[place]
-        return {name: values[place // stride % size] for name, (stride, size, values) in self._digits.items()}
+    def __getitem__(self, index: int | slice) -> "dict[str, str] | list[dict[str, str]]":
+        if isinstance(index, slice):
+            return [self[each] for each in range(self._count)[index]]
+        index = range(self._count)[index]
+        return {name: values[index // stride % size] for name, (stride, size, values) in self._digits.items()}
 
     def strides(self, names: Iterable[str]) -> list[tuple[int, int]]:
-        """Return (stride, size) for variables with several values: the place of a value in its variable is
-        `place // stride % size`, where `place` is that of the combination. Those in lock-step are one.
+        """Return (stride, size) for variables with several values: the index of a value in its variable is
+        `index // stride % size`, where `index` is that of the combination. Those in lock-step are one.
         """
         found = {(stride, size) for name in names for stride, size, _ in [self._digits[name]] if size > 1}
         return sorted(found)

@@ -46,7 +46,7 @@ class Coverage:
             variables: All variables.
             runs: The wanted runs.
         """
-        self._places = runs.places
+        self._indices = runs.indices
         self._options = options
         self._names = [variable.name for variable in variables]
         parameters = [line for line in lines if not is_option(line) and not is_ignored(line)]
@@ -80,16 +80,16 @@ class Coverage:
 
     def network_of(self, index: int) -> tuple[int, ...]:
         """Return a key that is equal for runs whose networks have the same values, except for their seeds."""
-        place = self._places[index]
-        values = tuple([place // stride % size for stride, size in self._of_network])
-        return (*values, place) if self._differs_always else values
+        combination = self._indices[index]
+        values = tuple([combination // stride % size for stride, size in self._of_network])
+        return (*values, combination) if self._differs_always else values
 
     def adds_a_value(self, index: int) -> bool:
         """Return whether a run has a value that none of the runs asked for before has."""
-        place = self._places[index]
+        combination = self._indices[index]
         is_new = False
         for strides, seen in self._unseen:
-            values = tuple([place // stride % size for stride, size in strides])
+            values = tuple([combination // stride % size for stride, size in strides])
             if values not in seen:
                 seen.add(values)
                 is_new = True

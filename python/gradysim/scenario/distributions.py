@@ -29,17 +29,17 @@ Beyond that fewer than one number in a thousand would be left."""
 
 
 class ParameterStream:
-    """Random bits for one place of one value, by blocks of the engine's generator.
+    """Random bits for one draw of one value, by blocks of the engine's generator.
 
     A stream depends on the seed of the run, the path of the parameter (`uavs[3].mobility.initialX`) and the
     number of the draw in its value. Other nodes, other parameters and the order of reading change nothing.
     """
 
-    def __init__(self, seed: int, path: str, place: int) -> None:
-        """Start at the first block. `place` counts the draws in the value, from 0."""
+    def __init__(self, seed: int, path: str, index: int) -> None:
+        """Start at the first block. `index` counts the draws in the value, from 0."""
         # The name of a stream, encapsulator/random_stream.py, has room for the number of a node. A path takes
         # as much as the upper half of a block's number beside it: 64 bits, so that no two paths meet.
-        digest = hashlib.sha256(f"{path}\0{place}".encode()).digest()
+        digest = hashlib.sha256(f"{path}\0{index}".encode()).digest()
         self._path = (int.from_bytes(digest[:4], "little"), int.from_bytes(digest[4:8], "little"))
         self._key = (seed & _MASK_32, seed >> 32 & _MASK_32)
         self._block = 0

@@ -1,6 +1,6 @@
 """Errors in scenarios: where they are, what is wrong, what is expected, and the nearest valid name.
 
-`ConfigError` is what users see. Code that does not know the place of a value raises `BadValue`.
+`ConfigError` is what users see. Code that does not know the source of a value raises `BadValue`.
 """
 
 import re
@@ -14,7 +14,7 @@ from typing import Self
 _LONGEST_VALUE = 200
 """Characters of a value in a message. The corners of an outline would fill a screen."""
 _LONGEST_MESSAGE = 1000
-"""Characters of an error with its place."""
+"""Characters of an error with its source."""
 _LONG_QUOTE = re.compile(rf"(?<=`)[^`]{{{_LONGEST_VALUE + 1},}}(?=`)|\S{{1000,}}")
 """A part of a file in a message, or a number of a thousand digits. Names and paths are shorter."""
 
@@ -42,7 +42,7 @@ class Source:
     Attributes:
         file: The .ini file, as the user named it. For an override: the file that it overrides.
         line: The line, counted from 1; 0 for an override and for the whole file.
-        key: The key as it is written, or "" if the place is not that of an entry.
+        key: The key as it is written, or "" if the source is not that of an entry.
         value: The value as it is written.
         option: The option that gave an override, such as `--set`; "" for the lines of a file.
         part: What the value describes, if it describes several things that may be wrong, or "".
@@ -74,10 +74,10 @@ class ConfigError(ValueError):
         expected: What is expected, or "" if the problem says it.
         suggestion: The nearest valid name, or "".
         hint: Further advice for the end of the message, "; ...", or "".
-        message: All of these, without the place.
-        source: The place, or None for a mistake without one (a run number that does not exist).
-        file: The file of the place, or None.
-        line: The line of the place; 0 for an override, for a whole file and without a place.
+        message: All of these, without the source.
+        source: The source, or None for a mistake without one (a run number that does not exist).
+        file: The file of the source, or None.
+        line: The line of the source; 0 for an override, for a whole file and without a source.
         key: The key, or "".
         value: The value as it is written, or "".
     """
@@ -145,11 +145,11 @@ class ConfigErrors(ConfigError):  # noqa: N818 - several of them
     """
 
     def __init__(self, errors: Iterable[ConfigError]) -> None:
-        """Take at least one error. Those without a place come first, then overrides, then lines."""
+        """Take at least one error. Those without a source come first, then overrides, then lines."""
         unique: dict[object, ConfigError] = {}
         for error in errors:
             unique.setdefault(error.source if error.key else str(error), error)
-        self.errors = list(_but_one_of_other_files(sorted(unique.values(), key=_place)))
+        self.errors = list(_but_one_of_other_files(sorted(unique.values(), key=_order)))
         first = self.errors[0]
         super().__init__(first.problem, first.source, **first._details())
 
@@ -181,7 +181,7 @@ def _resolved(file: Path) -> Path:
         return file
 
 
-def _place(error: ConfigError) -> tuple[str, int]:
+def _order(error: ConfigError) -> tuple[str, int]:
     return (str(error.file or ""), error.line)
 
 
@@ -229,8 +229,8 @@ class ErrorCollector:
             raise self.combined()
 
 
-class BadValue(ValueError):  # noqa: N818 - becomes a ConfigError where the place is known
-    """A value is not of the expected kind. Its reader turns this into a ConfigError with the place.
+class BadValue(ValueError):  # noqa: N818 - becomes a ConfigError where the source is known
+    """A value is not of the expected kind. Its reader turns this into a ConfigError with the source.
 
     Attributes:
         problem: What is wrong.

@@ -91,10 +91,10 @@ class ParameterContext:
         self.path = path
         self.has_drawn = False
 
-    def stream(self, place: int) -> ParameterStream:
+    def stream(self, draw_index: int) -> ParameterStream:
         """Return the stream of one of the draws in the value, counted from the left, from 0."""
         self.has_drawn = True
-        return ParameterStream(self.seed, self.path, place)
+        return ParameterStream(self.seed, self.path, draw_index)
 
     def index_of_ancestor(self, levels: int) -> int:
         """Return the index of the module that many levels above the one of the parameter.
@@ -221,11 +221,11 @@ class _Parser:
     def _is_tuple(self) -> bool:
         """Return whether the parentheses that open here have a comma of their own, or nothing, inside."""
         depth = 0
-        for place in range(self._position, len(self._tokens)):
-            token = self._tokens[place][1]
+        for position in range(self._position, len(self._tokens)):
+            token = self._tokens[position][1]
             depth += (token in ("(", "[")) - (token in (")", "]"))
             if depth == 0:
-                return place == self._position + 1
+                return position == self._position + 1
             if depth == 1 and token == ",":
                 return True
         return False
@@ -354,12 +354,12 @@ class _Parser:
             meant = nearest(name, _FUNCTION_NAMES)
             hint = "" if meant else f"; there are {', '.join(sorted(_FUNCTION_NAMES))}"
             raise BadValue(f"there is no function `{name}`", hint, suggestion=meant)
-        place = self._draws
+        draw_index = self._draws
         self._draws += name in DISTRIBUTIONS  # counted from the left, whether or not they draw
         with self._deeper():
             nodes = self._arguments()
         if name in DISTRIBUTIONS:
-            return _drawn(name, nodes, place)
+            return _drawn(name, nodes, draw_index)
         if name == SELECT:
             return _selected(nodes)
         if name not in INDEX_FUNCTIONS:
@@ -441,13 +441,13 @@ def _constant(value: Value) -> Node:
     return lambda parameter: value
 
 
-def _drawn(name: str, values: Sequence[Node], place: int) -> Node:
-    """The call of a distribution, with its place among those of the whole value."""
+def _drawn(name: str, values: Sequence[Node], draw_index: int) -> Node:
+    """The call of a distribution, with its index among those of the whole value."""
 
     def node(parameter: ParameterContext | None) -> Value:
         if parameter is None:
             raise BadValue(f"`{name}` draws the value of a parameter, which this is not")
-        return draw(name, [value(parameter) for value in values], parameter.stream(place))
+        return draw(name, [value(parameter) for value in values], parameter.stream(draw_index))
 
     return node
 
@@ -459,10 +459,10 @@ def _selected(nodes: Sequence[Node]) -> Node:
 
     def node(parameter: ParameterContext | None) -> Value:
         try:
-            place = item_index(index(parameter), len(items))
+            chosen = item_index(index(parameter), len(items))
         except BadValue as error:
             raise error.with_problem(f"`{SELECT}`: {error.problem}") from None
-        return items[place](parameter)
+        return items[chosen](parameter)
 
     return node
 

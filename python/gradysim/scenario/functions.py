@@ -150,10 +150,10 @@ def integer(value: Value) -> int:
 
 def item_index(index: Value, count: int) -> int:
     """Return the index of one of `count` items. BadValue if there is no such item."""
-    place = integer(number(index))
-    if not 0 <= place < count:
-        raise BadValue(f"there is no item {place}, only 0 to {count - 1}")
-    return place
+    item = integer(number(index))
+    if not 0 <= item < count:
+        raise BadValue(f"there is no item {item}, only 0 to {count - 1}")
+    return item
 
 
 def _of_plain_numbers(function: Callable[..., float]) -> Callable[..., Value]:

@@ -107,7 +107,7 @@ class Schema:
     def __init__(self, keys: Mapping[str, Key]) -> None:
         """Take the keys by path; the path `""` is that of the subject itself."""
         self.keys = keys
-        self._places = {path: place for place, path in enumerate(keys)}
+        self._indices = {path: index for index, path in enumerate(keys)}
         self._by_name: dict[str, list[str]] = {}  # by each name in it, and by `wlan[` for `wlan[0]`
         self._by_tail: dict[str, list[str]] = {}
         for path in keys:
@@ -129,7 +129,7 @@ class Schema:
 
     def in_order(self, rows: Mapping[str, Row]) -> Rows:
         """Return rows by path in the order of the keys."""
-        return {path: rows[path] for path in sorted(rows, key=self._places.__getitem__)}
+        return {path: rows[path] for path in sorted(rows, key=self._indices.__getitem__)}
 
     def may_match(self, pattern: Pattern) -> Collection[str]:
         """Return the paths that can match with something before them, judged by their last names."""

@@ -32,7 +32,7 @@ class Finding:
 
     Attributes:
         source: The line.
-        message: What is wrong and what is expected, without the place.
+        message: What is wrong and what is expected, without the source.
     """
 
     source: Source
@@ -62,8 +62,8 @@ def by_line(findings: Iterable[Finding]) -> list[Finding]:
     return sorted(dict.fromkeys(findings), key=lambda finding: (finding.file, finding.line))
 
 
-def place_beside(source: Source, other: Source) -> str:
-    """Return how a message at `source` names another line: "line 7, `*.key`,", or its full place."""
+def source_beside(source: Source, other: Source) -> str:
+    """Return how a message at `source` names another line: "line 7, `*.key`,", or its full source."""
     if other.is_override:
         return f"`{other}`"
     is_near = other.file == source.file and not source.is_override
@@ -147,8 +147,8 @@ def _shadowed_in(section: Section, instead: Mapping[str, Sequence[str]]) -> Iter
             why = "fits as well and comes first; expected the special line above the general one"
             if above.key in (entry.key, *keys_instead(entry.key, instead)):
                 why = "says the same thing and comes first; expected one of them"
-            place = place_beside(entry.source, above.source)
-            yield Finding(entry.source, f"`{entry.key}` has no effect: {place} {why}")
+            where = source_beside(entry.source, above.source)
+            yield Finding(entry.source, f"`{entry.key}` has no effect: {where} {why}")
 
 
 class _LinesAbove:
@@ -224,8 +224,8 @@ def unread_variables(unread: Iterable[UnreadVariables], lines: Sequence[Entry]) 
         instead = each.instead or _line_above_in_force(source, lines)
         why = "; expected a line that some run reads"
         if instead is not None:
-            place = place_beside(source, instead)
-            why = f": {place} is in force; expected an override with the same key, which makes no such runs"
+            where = source_beside(source, instead)
+            why = f": {where} is in force; expected an override with the same key, which makes no such runs"
         variables = " and ".join(f"${name}" for name in each.names)
         text = f"no run reads `{source.key}`, and runs that differ in {variables} alone are alike{why}"
         findings.append(Finding(source, text))
@@ -258,7 +258,7 @@ def bands_beside_frequencies(nodes: Iterable[NodeSpec]) -> list[Finding]:
     return [
         Finding(
             band,
-            f"`{band.key}` has no effect: {place_beside(band, center)} selects the channel; expected one of"
+            f"`{band.key}` has no effect: {source_beside(band, center)} selects the channel; expected one of"
             " them, or a channelNumber in that band",
         )
         for band, center in unread.items()
@@ -282,11 +282,11 @@ def nodes_on_one_point(nodes: Sequence[NodeSpec]) -> list[Finding]:
         if source is not None:
             first, second, *others = (spec.name for spec in together)
             names = f"{first} and {second}" if not others else f"{first}, {second} and {len(others)} more"
-            place = ", ".join(f"{coordinate:g}" for coordinate in point)
+            where = ", ".join(f"{coordinate:g}" for coordinate in point)
             findings.append(
                 Finding(
                     source,
-                    f"{names} stand on one point, ({place}) m; expected a place for each, such as"
+                    f"{names} stand on one point, ({where}) m; expected a place for each, such as"
                     f" `*.{together[0].group}[*].mobility.lineStepX = 10m`",
                 )
             )

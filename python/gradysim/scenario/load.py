@@ -299,12 +299,12 @@ class Study(Sequence[Scenario]):
             len(f"{text_of_iterations(run.iterations)} #{run.repetition}".lstrip()) for run in self._runs
         )
 
-    def places_of_repetitions(self) -> list[list[int]]:
+    def indices_of_repetitions(self) -> list[list[int]]:
         """Return the positions of the runs of each combination of values, in the order of repetitions."""
         found: dict[tuple[str, ...], list[tuple[int, int]]] = {}
-        for place, run in enumerate(self._runs):
-            found.setdefault(tuple(run.iterations.values()), []).append((run.repetition, place))
-        return [[place for _, place in sorted(alike)] for alike in found.values()]
+        for index, run in enumerate(self._runs):
+            found.setdefault(tuple(run.iterations.values()), []).append((run.repetition, index))
+        return [[index for _, index in sorted(alike)] for alike in found.values()]
 
     def _seeds(self, errors: ErrorCollector) -> Sequence[int]:
         """Return the seeds of all runs; `errors` takes what is wrong with those of the file."""

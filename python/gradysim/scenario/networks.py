@@ -27,7 +27,7 @@ from gradysim.scenario.unknown_keys import NoSuchNodeError, check_names, check_p
 from gradysim.scenario.values import Setting, SettingReader, read_scalar
 
 Key = tuple[int, ...]
-"""Places of the values of a run's network."""
+"""Sources of the values of a run's network."""
 
 
 class ResolvedNetwork(NamedTuple):
@@ -144,7 +144,7 @@ def resolve_network(
 ) -> ResolvedNetwork:
     """Return the lines of a run's network, whose entries have values instead of variables.
 
-    `instead` is the end of messages about nodes that do not exist, `source` the place of the configuration.
+    `instead` is the end of messages about nodes that do not exist, `source` the source of the configuration.
     `errors` takes the errors. Raises ConfigError for all that is wrong if there are no nodes.
     """
     lines = Lines(entries)

@@ -62,10 +62,10 @@ class AutopilotSpec:
     """The autopilot of one node.
 
     Attributes:
-        source: The place that chooses it.
-        program_source: The place of the program, or `source`.
-        user_source: The place of the user, or `source`.
-        parameters_source: The place of its parameters, or `source`.
+        source: The source that chooses it.
+        program_source: The source of the program, or `source`.
+        user_source: The source of the user, or `source`.
+        parameters_source: The source of its parameters, or `source`.
         program: An arducopter for SITL, or an ArduPilot checkout; None for that of the environment.
         user: The user that it runs as if root runs the simulation; None for root.
         speed_mps: Ground speed until the protocol sets another, >= `LOWEST_AUTOPILOT_SPEED_MPS`.
@@ -147,7 +147,7 @@ class NodeSpec:
         initial_position: x, y, z in meters.
         mobility: Fields of MobilityConfig that are set; the others keep their defaults.
         wlan: Its network interfaces, at least one.
-        protocol_sources: The places of the parameters, and under "" that of the protocol.
+        protocol_sources: The sources of the parameters, and under "" that of the protocol.
         node: Settings of the node itself: the number of its interfaces, and its clock.
         computer: Fields of ComputerConfig that are set.
         autopilot: The autopilot that flies it, or None. The mobility is massless then and follows it.
@@ -180,8 +180,8 @@ class NodeSpec:
                     f"`{name}` is not a parameter of {self.protocol.__name__}, the protocol of"
                     f" {self.name}{hint}"
                 )
-        place = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
-        object.__setattr__(self, "initial_position", place)
+        position = checked_point(f"the position of {self.name}", self.initial_position, ValueError)
+        object.__setattr__(self, "initial_position", position)
 
     @property
     def drift_rate(self) -> float:

@@ -45,7 +45,7 @@ class _Start:
         row: Start and step in meters for each axis, or None on an axis of a grid.
         steps: The lines of the steps.
         grid_settings: Settings of the grid. Its size also depends on the group.
-        grid_line: The place that asks for the grid, or None.
+        grid_line: The source that asks for the grid, or None.
     """
 
     row: tuple[tuple[float, float] | None, ...]
@@ -150,16 +150,16 @@ class _NodeBuilder:
         self._errors.add(ConfigError.at(step.entry.source, text, expected=expected))
         return 0.0
 
-    def position(self, mobility: Mapping[str, Setting], place: Position) -> Position:
-        """Return where a node starts: on its path if it has one, otherwise at `place`."""
+    def position(self, mobility: Mapping[str, Setting], start: Position) -> Position:
+        """Return where a node starts: on its path if it has one, otherwise at `start`."""
         with self._errors.collecting():
-            if path := path_of(mobility, place):
+            if path := path_of(mobility, start):
                 return path(0)
             typename = mobility.get("typename")
-            if typename is not None and typename.value == QUADCOPTER and place[2] < 0:
-                text = f"the node starts below the ground, at z = {place[2]:g}m"
+            if typename is not None and typename.value == QUADCOPTER and start[2] < 0:
+                text = f"the node starts below the ground, at z = {start[2]:g}m"
                 raise ConfigError.at(typename.source, text, expected="at least 0m")
-        return place
+        return start
 
     def _make(self, name: str, kind: NodeKind) -> _Common:
         wlan = self._interfaces.interfaces(name, kind)

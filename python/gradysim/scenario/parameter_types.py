@@ -123,7 +123,7 @@ def coordinate() -> ParameterType:
     return quantity("m", at_least=-LARGEST_COORDINATE_M, at_most=LARGEST_COORDINATE_M)
 
 
-def place() -> ParameterType:
+def node_coordinate() -> ParameterType:
     """Return the type of coordinates where a node may be, whatever else is there."""
     return replace(coordinate(), has_all_between=True)
 

@@ -72,14 +72,14 @@ def _linear(mobility: Mapping[str, Setting], start: Position, typename: Setting)
         math.sin(elevation),
     )
     walls = [_walls(mobility, axis) for axis in _AXES]
-    for axis, place, (least, most) in zip(_AXES, start, walls, strict=True):
-        if not least <= place <= most:
-            text = f"the node starts at {axis} = {place:g}m"
-            setting = mobility.get(f"area_{'min' if place < least else 'max'}_{axis}_m", typename)
+    for axis, coordinate, (least, most) in zip(_AXES, start, walls, strict=True):
+        if not least <= coordinate <= most:
+            text = f"the node starts at {axis} = {coordinate:g}m"
+            setting = mobility.get(f"area_{'min' if coordinate < least else 'max'}_{axis}_m", typename)
             raise ConfigError.at(setting.source, text, expected=f"{least:g}m to {most:g}m, in the area")
     lines = [
-        partial(_reflected, place - least, speed_mps * share, least, most - least)
-        for place, share, (least, most) in zip(start, shares, walls, strict=True)
+        partial(_reflected, coordinate - least, speed_mps * share, least, most - least)
+        for coordinate, share, (least, most) in zip(start, shares, walls, strict=True)
     ]
     return lambda time_s: (lines[0](time_s), lines[1](time_s), lines[2](time_s))
 

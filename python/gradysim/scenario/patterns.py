@@ -115,7 +115,7 @@ class Pattern:
         if [token.text for token in self.tokens[:2]] != ["**", "."]:
             return None
         tokens = self.tokens[2:]
-        dot = next((place for place, token in enumerate(tokens) if token.literal == "."), len(tokens))
+        dot = next((index for index, token in enumerate(tokens) if token.literal == "."), len(tokens))
         name, rest = tokens[:dot], tokens[dot + 1 :]
         if any(token.spans_dots for token in name):
             return None
@@ -124,7 +124,7 @@ class Pattern:
     @cached_property
     def below_any_name(self) -> "tuple[Pattern, Pattern] | None":
         """`Net` and `**.speed` for `Net.**.speed`; None for a pattern of another form."""
-        dot = next((place for place, token in enumerate(self.tokens) if token.literal == "."), 0)
+        dot = next((index for index, token in enumerate(self.tokens) if token.literal == "."), 0)
         name, rest = self.tokens[:dot], self.tokens[dot + 1 :]
         if [token.text for token in rest[:2]] != ["**", "."] or any(token.spans_dots for token in name):
             return None

@@ -93,9 +93,9 @@ class Grid:
 
     def coordinate_m(self, index: int, axis: str) -> float:
         """Return x or y of the node with that index in the group."""
-        place = _AXES_OF_GRID.index(axis)
-        cell = (index % self.columns, index // self.columns)[place]
-        return self.margins_m[place] + (cell + 0.5) * self.separations_m[place]
+        of_axis = _AXES_OF_GRID.index(axis)
+        cell = (index % self.columns, index // self.columns)[of_axis]
+        return self.margins_m[of_axis] + (cell + 0.5) * self.separations_m[of_axis]
 
 
 def read_grid(settings: Mapping[str, Setting], group: Group, line: Source) -> Grid:
@@ -131,8 +131,8 @@ def read_grid(settings: Mapping[str, Setting], group: Group, line: Source) -> Gr
         if not abs(farthest_m) <= LARGEST_COORDINATE_M:
             text = f"a node would start at {axis} = {farthest_m:.12g}m"
             far = settings.get(field, settings.get(f"margin_{axis}"))
-            place = line if far is None else far.source
-            raise ConfigError.at(place, text, expected=f"at most {LARGEST_COORDINATE_M}m from 0m")
+            source = line if far is None else far.source
+            raise ConfigError.at(source, text, expected=f"at most {LARGEST_COORDINATE_M}m from 0m")
     return grid
 
 

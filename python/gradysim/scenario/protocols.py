@@ -49,41 +49,41 @@ class ProtocolLoader:
             BadValue: There is no such file, module or class, it does not load, or it is not a complete
                 protocol.
         """
-        place, colon, class_name = reference.rpartition(":")
-        if not (colon and place and class_name.isidentifier()):
+        location, colon, class_name = reference.rpartition(":")
+        if not (colon and location and class_name.isidentifier()):
             meant = _class_meant(reference, folder)
             raise BadValue(f"`{reference}` does not name a class", expected=_REFERENCE, suggestion=meant)
-        if not _is_file(place):
-            return _protocol_in(_import_module(place, folder, class_name), class_name, place)
-        protocol = _protocol_in(self._load_file(place, folder), class_name, place)
-        remember_origin(protocol, Origin((folder / place).resolve(), class_name, self._modules))
+        if not _is_file(location):
+            return _protocol_in(_import_module(location, folder, class_name), class_name, location)
+        protocol = _protocol_in(self._load_file(location, folder), class_name, location)
+        remember_origin(protocol, Origin((folder / location).resolve(), class_name, self._modules))
         return protocol
 
     def files(self, reference: str, folder: Path) -> tuple[Path, ...]:
         """Return the files that the protocol of a reference consists of, once it is loaded."""
-        place = reference.rpartition(":")[0]
-        if _is_file(place):
-            file = (folder / place).resolve()
+        location = reference.rpartition(":")[0]
+        if _is_file(location):
+            file = (folder / location).resolve()
             root = file.parent
         else:
-            file_of_module = getattr(sys.modules.get(place), "__file__", None)
+            file_of_module = getattr(sys.modules.get(location), "__file__", None)
             if file_of_module is None:  # a module that is built in
                 return ()
             file = Path(file_of_module).resolve()
-            root = root_of_module(place, file)
+            root = root_of_module(location, file)
         if (file, root) not in self._files:
             self._files[file, root] = imported_files(file, root)
         return self._files[file, root]
 
-    def _load_file(self, place: str, folder: Path) -> ModuleType:
-        file = folder / place
+    def _load_file(self, location: str, folder: Path) -> ModuleType:
+        file = folder / location
         try:
             is_file = file.is_file()
         except OSError as error:
             raise BadValue(f"{file}: {error.strerror}") from error
         if not is_file:
             check_regular(file)
-            meant = nearest_file(file, (".py",), place)
+            meant = nearest_file(file, (".py",), location)
             raise BadValue(f"there is no file {file}", expected=_REFERENCE, suggestion=meant)
         try:
             return self._modules.load(file)
@@ -98,9 +98,9 @@ class ProtocolLoader:
             raise BadValue(f"{file} does not load: {_error_text(error, file.parent)}") from error
 
 
-def _is_file(place: str) -> bool:
+def _is_file(location: str) -> bool:
     """Return whether the part before the colon is a file rather than a module."""
-    return place.endswith(".py") or "/" in place or "\\" in place
+    return location.endswith(".py") or "/" in location or "\\" in location
 
 
 def _import_module(name: str, folder: Path, class_name: str) -> ModuleType:
@@ -119,24 +119,24 @@ def _import_module(name: str, folder: Path, class_name: str) -> ModuleType:
         raise BadValue(f"module {name} does not load: {_error_text(error)}") from error
 
 
-def _protocol_in(module: ModuleType, name: str, place: str) -> type[IProtocol]:
+def _protocol_in(module: ModuleType, name: str, location: str) -> type[IProtocol]:
     cls = getattr(module, name, None)
     protocols = [key for key, value in vars(module).items() if is_protocol_class(value)]
     others = f"; there are {', '.join(protocols)}" if protocols else ""
     if cls is None:
         meant = nearest(name, protocols)
-        raise BadValue(f"{place} has no class `{name}`", "" if meant else others, suggestion=meant)
+        raise BadValue(f"{location} has no class `{name}`", "" if meant else others, suggestion=meant)
     if not is_protocol_class(cls):
         why = "is not a protocol: it does not derive from IProtocol"
         if cls is IProtocol:
             why = "is not a protocol but the interface that protocols derive from"
-        raise BadValue(f"`{name}` in {place} {why}", others)
+        raise BadValue(f"`{name}` in {location} {why}", others)
     protocol: type[IProtocol] = cls
     if missing := _missing_callbacks(protocol):
         own = _own_names(protocol)
         alike = [meant for method in missing if (meant := nearest(method, own, strict=True))]
         hint = f"; it has {_calls(alike)}" if alike else ""
-        raise BadValue(f"`{name}` in {place} is not complete, it lacks {_calls(missing)}", hint)
+        raise BadValue(f"`{name}` in {location} is not complete, it lacks {_calls(missing)}", hint)
     check_contract(protocol)
     return protocol
 

@@ -63,17 +63,17 @@ class NumberedRuns(Sequence[NumberedRun]):
     Attributes:
         numbers: Their numbers, which increase.
         run_count: The number of all runs, wanted or not.
-        combinations: The combinations of values and repetitions that `places` count.
-        places: The place of each run among all combinations.
+        combinations: The combinations of values and repetitions that `indices` count.
+        indices: The index of each run among all combinations.
     """
 
     def __init__(
-        self, numbers: Sequence[int], run_count: int, combinations: Combinations, places: Sequence[int]
+        self, numbers: Sequence[int], run_count: int, combinations: Combinations, indices: Sequence[int]
     ) -> None:
         self.numbers = numbers
         self.run_count = run_count
         self.combinations = combinations
-        self.places = places
+        self.indices = indices
 
     def __len__(self) -> int:
         return len(self.numbers)
@@ -86,8 +86,8 @@ class NumberedRuns(Sequence[NumberedRun]):
 
     def __getitem__(self, index: int | slice) -> "NumberedRun | NumberedRuns":
         if isinstance(index, slice):
-            return NumberedRuns(self.numbers[index], self.run_count, self.combinations, self.places[index])
-        values = self.combinations[self.places[index]]
+            return NumberedRuns(self.numbers[index], self.run_count, self.combinations, self.indices[index])
+        values = self.combinations[self.indices[index]]
         return NumberedRun(self.numbers[index], int(values.pop(REPETITION)), values)
 
 
@@ -104,7 +104,7 @@ def numbered_runs(
 
     All runs are the combinations of values that the constraint leaves, each repeated. Repetitions are values
     of one more variable, the innermost one unless `iteration-nesting-order` says otherwise. `source` is the
-    place of the configuration, and `name` what messages about `runs` begin with. Raises ConfigError if there
+    source of the configuration, and `name` what messages about `runs` begin with. Raises ConfigError if there
     are too few runs or too many, and what `select_runs` raises.
     """
     repetitions = _repetitions(options.get("repeat"), source)
@@ -122,14 +122,14 @@ def numbered_runs(
     made_of = f"{combined} combinations of values, `repeat = {repeat}`" if variables else ""
     if entry := options.get("constraint"):
         constraint = Constraint(entry)
-        allowed = array("l", (place for place, values in enumerate(combinations) if constraint.holds(values)))
+        allowed = array("l", (index for index, values in enumerate(combinations) if constraint.holds(values)))
         made_of = f"what the constraint leaves of {made_of}" if made_of else ""
         if not allowed:
             problem = f"none of {combined} combinations of values is left; expected one at least"
             raise ConfigError.at(constraint.source, problem)
     numbers = select_runs(runs, len(allowed), config, repetitions.source, made_of, name)[part]
-    places = allowed if len(numbers) == len(allowed) else [allowed[number] for number in numbers]
-    return NumberedRuns(numbers, len(allowed), combinations, places)
+    indices = allowed if len(numbers) == len(allowed) else [allowed[number] for number in numbers]
+    return NumberedRuns(numbers, len(allowed), combinations, indices)
 
 
 def _repetitions(repeat: Entry | None, source: Source) -> IterationVariable:
@@ -321,7 +321,7 @@ def unread_variables(
 ) -> dict[Source, tuple[str, ...]]:
     """Return the lines that iterate over several values in vain, with the names of these variables.
 
-    `lines` have names for values, and `read` are the places of those that some run reads, without options.
+    `lines` have names for values, and `read` are the sources of those that some run reads, without options.
     """
     by_name = {variable.name: variable for variable in variables}
     used = {

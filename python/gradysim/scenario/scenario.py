@@ -27,7 +27,7 @@ class CommunicationMediumSpec:
         transmission_range_m: Distance up to which a message arrives, >= 0. None: that of each node's radio.
         delay_s: Time from sending to arrival, >= 0.
         failure_rate: Ratio of lost messages, 0 to 1.
-        range_source: The place of the range, if the file gives one.
+        range_source: The source of the range, if the file gives one.
     """
 
     transmission_range_m: float | None = None
@@ -99,10 +99,10 @@ class Scenario:
         limit_s = self.sim_time_limit_s
         limit_s = checked_number("sim_time_limit_s", limit_s, 0, LONGEST_RUN_S, above=True, unit="s")
         object.__setattr__(self, "sim_time_limit_s", limit_s)
-        for place, node in enumerate(self.nodes):
-            if node.id != place:
+        for index, node in enumerate(self.nodes):
+            if node.id != index:
                 raise ValueError(
-                    f"nodes: {node.name}, at place {place}, has the id {node.id}; expected 0, 1, ... in order"
+                    f"nodes: {node.name}, at index {index}, has the id {node.id}; expected 0, 1, ... in order"
                 )
 
     def __getstate__(self) -> dict[str, Any]:

@@ -180,9 +180,9 @@ def _define(content: str, entry: Entry, variables: dict[str, IterationVariable])
         raise ConfigError.at(entry.source, f"`${{{name}}}` is there in every run; expected another name")
     if name in variables:
         other = variables[name].source
-        place = f"line {other.line}" if other.line and other.file == entry.source.file else str(other)
+        where = f"line {other.line}" if other.line and other.file == entry.source.file else str(other)
         raise ConfigError.at(
-            entry.source, f"`{name}` has its values at {place} already; expected `${{{name}}}` here"
+            entry.source, f"`{name}` has its values at {where} already; expected `${{{name}}}` here"
         )
     if len(variables) == _MOST_VARIABLES:
         raise ConfigError.at(entry.source, f"more than {_MOST_VARIABLES} variables; expected fewer")

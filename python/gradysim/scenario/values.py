@@ -25,7 +25,7 @@ _UNIFORM = re.compile(r'\s*uniform\s*\(([^(),"]*),([^(),"]*)\)\s*', re.ASCII)
 
 @dataclass(frozen=True)
 class Setting:
-    """A value with the place where it was written, for errors that come up later."""
+    """A value with the source where it was written, for errors that come up later."""
 
     value: Scalar
     source: Source
@@ -45,7 +45,7 @@ class SettingReader:
         self._right_for_all_seeds: dict[tuple[int, int], bool] = {}  # of drawn values
 
     def setting(self, entry: Entry, kind: ParameterType, path: str = "") -> Setting:
-        """Return the value of an entry. ConfigError, with its place, if it is not of that type.
+        """Return the value of an entry. ConfigError, with its source, if it is not of that type.
 
         `path` is the parameter that it is for, from below the network; "" if it is not for a parameter.
         """
@@ -102,7 +102,7 @@ class SettingReader:
 def read_scalar(
     entry: Entry, kind: ParameterType, path: str = "", parameter: ParameterContext | None = None
 ) -> Scalar:
-    """Return the value of an entry. ConfigError, with its place, if it is not of that type.
+    """Return the value of an entry. ConfigError, with its source, if it is not of that type.
 
     The error names `path`, the parameter that the value is for, if wildcards of the key leave it open:
     `**.power` may be for a transmitter or for the background noise. With `parameter` the value may be drawn

@@ -78,8 +78,8 @@ class SimulationBuilder:
             raise TypeError(f"the name of a node must be a str, got {name!r}")
         if name in self._ids_by_name:
             raise ValueError(f"there is a node with the name {name!r} already")
-        place = checked_point("the position of a node", position, ValueError)
-        self._nodes.append((checked_protocol_class(protocol), place))
+        checked = checked_point("the position of a node", position, ValueError)
+        self._nodes.append((checked_protocol_class(protocol), checked))
         identifier = len(self._nodes) - 1
         if name:
             self._ids_by_name[name] = identifier

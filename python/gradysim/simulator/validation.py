@@ -25,14 +25,14 @@ def checked_protocol_class(protocol: type[IProtocol]) -> type[IProtocol]:
     return protocol
 
 
-def check_reference(place: Iterable[object]) -> None:
+def check_reference(reference: Iterable[object]) -> None:
     """Check (latitude deg, longitude deg, altitude m). ValueError if it is not a place on Earth."""
     try:
-        latitude, longitude, altitude = place
+        latitude, longitude, altitude = reference
     except (TypeError, ValueError):
         latitude = longitude = altitude = None
     if not (is_in_range(latitude, -90, 90) and is_in_range(longitude) and is_in_range(altitude)):
         raise ValueError(
             "reference_coordinates must be (latitude -90 to 90 degrees, longitude degrees, altitude m), "
-            f"got {place!r}"
+            f"got {reference!r}"
         )

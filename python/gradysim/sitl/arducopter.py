@@ -60,10 +60,10 @@ def find_arducopter(path: str | os.PathLike[str] | None) -> Path:
             "arducopter program for SITL or of an ArduPilot checkout in which it was built, or set the "
             f"environment variable {ENVIRONMENT_VARIABLE}"
         )
-    place = Path(given).expanduser().absolute()
-    program = place / _IN_A_CHECKOUT if place.is_dir() else place
+    location = Path(given).expanduser().absolute()
+    program = location / _IN_A_CHECKOUT if location.is_dir() else location
     if not program.is_file():
-        built = " (./waf configure --board sitl && ./waf copter builds it)" if place.is_dir() else ""
+        built = " (./waf configure --board sitl && ./waf copter builds it)" if location.is_dir() else ""
         raise SitlError(f"no autopilot at {program}: this file does not exist{built}")
     if not os.access(program, os.X_OK):
         raise SitlError(f"the autopilot {program} is not executable")

@@ -14,7 +14,7 @@ from gradysim.protocol.position import Position
 from gradysim.sitl.autopilot_node import AutopilotNode, check_start, ground_temperature, wind_mps
 from gradysim.sitl.fleet import Fleet
 from gradysim.sitl.flight_orders import give_order
-from gradysim.sitl.frame import autopilots_place, home_of
+from gradysim.sitl.frame import autopilots_coordinates, home_of
 from gradysim.sitl.lock_step import RATE_HZ, LockStepAutopilot, LockStepGroup, VehicleClockLoop
 from gradysim.sitl.mavlink import MavlinkLink, Message
 from gradysim.sitl.pilot import Pilot
@@ -50,7 +50,7 @@ class LockStepFlight:
         body = Quadcopter(wind_mps(node.name, node.parameters), node.drag_kgps)
         self.autopilot = LockStepAutopilot(self._link, body, node.wind)
         self.vehicle = Vehicle(self._link)
-        self.pilot = Pilot(self.vehicle, self._place_of, node.start, node.speed_mps)
+        self.pilot = Pilot(self.vehicle, self._coordinates_of, node.start, node.speed_mps)
 
     @property
     def position(self) -> Position:
@@ -81,16 +81,16 @@ class LockStepFlight:
         """Take off and fly to the start. Raise SitlError if a step fails or exceeds `timeout_s`."""
         await prepare(
             self.vehicle,
-            self._place_of(self._node.start),
+            self._coordinates_of(self._node.start),
             position_hz=_POSITIONS_HZ,
             speed_mps=self._node.speed_mps,
             timeout_s=timeout_s,
             parameters=self._node.parameters,
         )
 
-    def _place_of(self, point: Position) -> Position:
+    def _coordinates_of(self, point: Position) -> Position:
         x, y, _ = self._node.start
-        return autopilots_place(self._home, (point[0] - x, point[1] - y, point[2]))
+        return autopilots_coordinates(self._home, (point[0] - x, point[1] - y, point[2]))
 
     def _note(self, message: Message) -> None:
         if self._on_text is not None and message.get_type() == "STATUSTEXT":

@@ -59,7 +59,7 @@ def check_same_hemisphere(home: Position, longitude: float) -> None:
         )
 
 
-def autopilots_place(home: Position, offset: Position) -> Position:
+def autopilots_coordinates(home: Position, offset: Position) -> Position:
     """Return (latitude deg, longitude deg, height above home m) at an offset (North, East, up; m) from home.
 
     ArduPilot computes it with a flat Earth. Raise ValueError if the place is across the date line.

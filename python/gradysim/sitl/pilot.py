@@ -52,21 +52,21 @@ class Pilot:
     def __init__(
         self,
         vehicle: Vehicle,
-        place_of: Callable[[Position], Position],
+        coordinates_of: Callable[[Position], Position],
         start: Position,
         speed_mps: float,
         pace: float = 1.0,
     ) -> None:
         """Create a pilot for a vehicle that holds the point `start` before the first command.
 
-        `place_of` returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in meters,
+        `coordinates_of` returns (latitude deg, longitude deg, height above home m) of a point (x, y, z) in m,
         or raises ValueError. `pace` is seconds of the autopilot's time per second of the asyncio loop.
         """
         self.vehicle = vehicle
-        self._place_of = place_of
+        self._coordinates_of = coordinates_of
         self._renewal_s = _RENEWAL_S / pace
         self._target = start
-        self._place: Position | None = place_of(start)  # None while it is to hold a velocity
+        self._goal: Position | None = coordinates_of(start)  # None to hold a velocity
         self._phase = _Phase.FLYING
         self._speed_mps = speed_mps
         self._velocity: Position | None = None
@@ -79,12 +79,12 @@ class Pilot:
         Raise ValueError if there is no such place on Earth, and SitlError if the link is lost.
         """
         x, y, z = target
-        place = self._place_of((x, y, max(0.0, z)))
+        coordinates = self._coordinates_of((x, y, max(0.0, z)))
         self._target = target
         if self._speed_mps == 0:
             self._stop()
             return
-        self._place = place
+        self._goal = coordinates
         if self.vehicle.is_on_ground:
             self._go_on_from_ground()
         else:
@@ -92,7 +92,7 @@ class Pilot:
 
     def set_velocity(self, velocity_mps: Position) -> None:
         """Fly with a velocity (North, East, up)."""
-        self._place = None
+        self._goal = None
         self._hold(velocity_mps)
 
     def set_speed(self, speed_mps: float) -> None:
@@ -114,7 +114,7 @@ class Pilot:
 
     def _stop(self) -> None:
         """Stop by a velocity of 0, because ArduCopter refuses a speed of 0."""
-        if self._place is None or self._phase is not _Phase.STANDING:  # it stands already
+        if self._goal is None or self._phase is not _Phase.STANDING:  # it stands already
             self.set_velocity((0.0, 0.0, 0.0))
 
     @property
@@ -149,35 +149,35 @@ class Pilot:
     async def _take_off_and_land(self) -> None:
         while True:
             await self.vehicle.link.wait_for(_has_position, None)
-            if self._place is None or self.vehicle.position is None:
+            if self._goal is None or self.vehicle.position is None:
                 continue
-            over_m, height_m = _apart_m(self._place, self.vehicle.position)
+            over_m, height_m = _apart_m(self._goal, self.vehicle.position)
             if self._phase is _Phase.RISING:
                 if self.vehicle.is_in_air and height_m >= _CLEAR_M:
                     self._fly()
             elif self._phase is _Phase.FLYING:
                 if self.vehicle.is_on_ground:
                     self._go_on_from_ground()
-                elif _is_on_ground(self._place) and height_m <= _APPROACH_M + _OVER_M and over_m <= _OVER_M:
+                elif _is_on_ground(self._goal) and height_m <= _APPROACH_M + _OVER_M and over_m <= _OVER_M:
                     self._stand()
 
     def _go_on_from_ground(self) -> None:
-        assert self._place is not None
+        assert self._goal is not None
         position = self.vehicle.position
-        if _is_on_ground(self._place) and position and _apart_m(self._place, position)[0] <= _NEAR_M:
+        if _is_on_ground(self._goal) and position and _apart_m(self._goal, position)[0] <= _NEAR_M:
             self._stand()
         else:
             self._phase = _Phase.RISING
             self._hold(_UPWARDS_MPS)
 
     def _fly(self) -> None:
-        assert self._place is not None
+        assert self._goal is not None
         self._phase = _Phase.FLYING
         if self._velocity is not None:
             self._velocity = None
             self._speed_is_new.set()  # ArduCopter forgets it during a velocity command.
-        latitude, longitude, height_m = self._place
-        self.vehicle.go_to(latitude, longitude, _APPROACH_M if _is_on_ground(self._place) else height_m)
+        latitude, longitude, height_m = self._goal
+        self.vehicle.go_to(latitude, longitude, _APPROACH_M if _is_on_ground(self._goal) else height_m)
 
     def _stand(self) -> None:
         self._phase = _Phase.STANDING
@@ -192,11 +192,11 @@ def _has_position(message: Message) -> bool:
     return message.get_type() in ("GLOBAL_POSITION_INT", "EXTENDED_SYS_STATE")
 
 
-def _is_on_ground(place: Position) -> bool:
-    return place[2] <= _ON_GROUND_M
+def _is_on_ground(coordinates: Position) -> bool:
+    return coordinates[2] <= _ON_GROUND_M
 
 
-def _apart_m(place: Position, position: Position) -> tuple[float, float]:
+def _apart_m(coordinates: Position, position: Position) -> tuple[float, float]:
     """Return the horizontal distance of a vehicle from a place and its height above home, in m."""
-    north_m, east_m, _ = geo_to_cartesian(place, position)
+    north_m, east_m, _ = geo_to_cartesian(coordinates, position)
     return math.hypot(north_m, east_m), position[2]

@@ -174,22 +174,22 @@ class Vehicle:
         """Command a straight flight to a place. It replaces the previous target or velocity. No reply."""
         latitude, longitude = off_null_island(latitude, longitude)
         frame = self._dialect.MAV_FRAME_GLOBAL_RELATIVE_ALT_INT
-        place = (round(latitude * 1e7), round(longitude * 1e7), height_m)
+        coordinates = (round(latitude * 1e7), round(longitude * 1e7), height_m)
         kind = "set_position_target_global_int"
-        self._send(kind, 0, *self.link.target, frame, _POSITION_ONLY, *place, *([0] * 8))
+        self._send(kind, 0, *self.link.target, frame, _POSITION_ONLY, *coordinates, *([0] * 8))
 
     async def arrive(self, latitude: float, longitude: float, height_m: float, timeout_s: float) -> None:
         """Fly to a place and wait until it is within 1 m."""
-        place = (latitude, longitude, height_m)
+        coordinates = (latitude, longitude, height_m)
 
         def is_there(message: Message) -> bool:
             return (
                 _is("GLOBAL_POSITION_INT")(message)
-                and squared_distance(geo_to_cartesian(place, position_of(message)), (0, 0, 0))
+                and squared_distance(geo_to_cartesian(coordinates, position_of(message)), (0, 0, 0))
                 <= _ARRIVED_M**2
             )
 
-        self.go_to(*place)
+        self.go_to(*coordinates)
         await self._fly(f"flight to ({latitude:.7f}, {longitude:.7f}, {height_m:g} m)", is_there, timeout_s)
 
     def set_velocity(self, north_mps: float, east_mps: float, up_mps: float) -> None:

@@ -38,14 +38,14 @@ class RunsByChance:
         self,
         executor: Executor | None,
         effects: Effects,
-        places: Sequence[int],
+        indices: Sequence[int],
         quantities: Sequence[str],
         jitter: Jitter | None = None,
     ) -> Iterator[Observation]:
         level = max(number for number, each in enumerate(self.levels) if each.name in effects)
-        self.submitted += [(effects, place) for place in places]
-        return (self._seen(level, place) for place in places)
+        self.submitted += [(effects, index) for index in indices]
+        return (self._seen(level, index) for index in indices)
 
-    def _seen(self, level: int, place: int) -> Observation:
-        key = f"{self._seed} {place} {level if self._independent else ''}"
+    def _seen(self, level: int, index: int) -> Observation:
+        key = f"{self._seed} {index} {level if self._independent else ''}"
         return Observation({"works": float(Random(key).random() >= self._failing[level])})

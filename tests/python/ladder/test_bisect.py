@@ -33,7 +33,7 @@ def test_the_level_that_breaks_lock_step_timers(bisection_of: Callable[..., Bise
     verdict = bisection.find()
     assert (verdict.works, verdict.fails, verdict.is_sure) == (4, 5, True)
     assert verdict.smallest == ("airtime", "interference")
-    assert verdict.place == 0
+    assert verdict.index == 0
     assert verdict.run_count == bisection.run_count < 120
 
 
@@ -105,7 +105,7 @@ def test_no_run_is_done_twice_and_the_budget_is_kept() -> None:
 def test_failures_too_rare_to_be_located_are_reported() -> None:
     verdict = Bisection(RunsByChance([0] * 5 + [0.02] * 3, 3), WORKS).find()
     assert (verdict.fails, verdict.is_sure) == (5, False)
-    assert verdict.place is not None
+    assert verdict.index is not None
 
 
 def test_levels_that_do_not_differ_are_undecided() -> None:

@@ -32,9 +32,9 @@ description = "it rains"
 """
 
 
-def draws(campaign: Campaign, effects: Effects, place: int = 0) -> list[tuple[object, object]]:
+def draws(campaign: Campaign, effects: Effects, index: int = 0) -> list[tuple[object, object]]:
     """Return the position of each node, and when it sent its last beacon."""
-    with gradysim.start(campaign.scenario(effects, place)) as run:
+    with gradysim.start(campaign.scenario(effects, index)) as run:
         run.run_until()
     return [(node.position, node.tracked_variables["sent"]) for node in run.result().nodes]
 

@@ -121,8 +121,8 @@ def test_a_run_that_fails_does_not_end_the_analysis(tmp_path: Path) -> None:
     assert failure.where.startswith("in handle_timer ")
     assert found.timers == (("base", "beacon"), ("other", "beacon"))
     assert found.jitter_s
-    place = next(iter(found.failures))
-    assert f"Run {place} " in "\n".join(desync_sentences(found))
+    index = next(iter(found.failures))
+    assert f"Run {index} " in "\n".join(desync_sentences(found))
 
 
 def test_runs_that_all_fail_are_diagnosed_up_to_then(tmp_path: Path) -> None:

@@ -9,9 +9,9 @@ STEP_S = 1e-9
 """Times of the engine are accurate to this."""
 
 
-def sent(campaign: Campaign, jitter: Jitter | None, place: int = 0) -> list[float]:
+def sent(campaign: Campaign, jitter: Jitter | None, index: int = 0) -> list[float]:
     """Return the time at which each node sent its last beacon."""
-    scenario = campaign.scenario(campaign.all_effects, place)
+    scenario = campaign.scenario(campaign.all_effects, index)
     with gradysim.start(scenario) as run:
         if jitter is not None:
             jitter.add_to(run, scenario)
@@ -38,7 +38,7 @@ def test_delays_depend_on_the_seed_of_the_run(make_campaign: Callable[..., Campa
     campaign = make_campaign("sim-time-limit=1.05s", run_count=2)
     jitter = Jitter(BEACONS, 0.02)
     assert sent(campaign, jitter) == sent(campaign, jitter)
-    assert sent(campaign, jitter, place=0) != sent(campaign, jitter, place=1)
+    assert sent(campaign, jitter, index=0) != sent(campaign, jitter, index=1)
 
 
 def test_timers_that_differ_in_numbers_are_one(make_campaign: Callable[..., Campaign]) -> None:

@@ -15,7 +15,7 @@ def study_of(directory: Path, *iterations: dict[str, object]) -> Runs:
 
 
 @pytest.mark.parametrize(
-    ("values", "label", "places"),
+    ("values", "label", "positions"),
     [
         ([20, 5, 10.5], "v", [5, 10.5, 20]),
         (["10ms", "2ms"], "v (ms)", [2, 10]),
@@ -27,11 +27,11 @@ def study_of(directory: Path, *iterations: dict[str, object]) -> Runs:
         ([5, "10ms"], "v", ["5", "10ms"]),
     ],
 )
-def test_values_of_an_axis(tmp_path: Path, values: list[object], label: str, places: list[object]) -> None:
+def test_values_of_an_axis(tmp_path: Path, values: list[object], label: str, positions: list[object]) -> None:
     axis = x_axis(study_of(tmp_path, *({"v": value} for value in values)), "v")
     assert axis.label == label
-    assert list(axis.places.values()) == pytest.approx(places)
-    assert axis.categories == (tuple(places) if isinstance(places[0], str) else ())
+    assert list(axis.positions.values()) == pytest.approx(positions)
+    assert axis.categories == (tuple(positions) if isinstance(positions[0], str) else ())
 
 
 def test_an_unknown_variable(tmp_path: Path) -> None:

@@ -17,13 +17,13 @@ from gradysim.scenario.units import Quantity
 PATH = "uavs[3].mobility.initialX"
 
 
-def first(seed: int = 1, path: str = PATH, place: int = 0) -> float:
-    return ParameterStream(seed, path, place).uniform()
+def first(seed: int = 1, path: str = PATH, index: int = 0) -> float:
+    return ParameterStream(seed, path, index).uniform()
 
 
 def test_the_name_gives_the_numbers() -> None:
     assert first() == first()
-    others = {first(), first(seed=2), first(path="uavs[4].mobility.initialX"), first(place=1)}
+    others = {first(), first(seed=2), first(path="uavs[4].mobility.initialX"), first(index=1)}
     assert len(others) == 4
 
 

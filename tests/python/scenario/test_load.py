@@ -106,12 +106,12 @@ def test_a_run_for_each_combination_of_values_and_repetition(folder: Any) -> Non
 
 
 @pytest.mark.parametrize(
-    ("order", "places"), [("x,repetition", [[0, 1, 2], [3, 4, 5]]), ("repetition,x", [[0, 2, 4], [1, 3, 5]])]
+    ("order", "indices"), [("x,repetition", [[0, 1, 2], [3, 4, 5]]), ("repetition,x", [[0, 2, 4], [1, 3, 5]])]
 )
-def test_repetitions_of_each_combination(folder: Any, order: str, places: list[list[int]]) -> None:
+def test_repetitions_of_each_combination(folder: Any, order: str, indices: list[list[int]]) -> None:
     folder.load(f'repeat = 3\niteration-nesting-order = "{order}"\n**.numUavs = ${{x=1, 2}}\n')
     study = Study(folder.ini, "General", None, (), None, OF_SCRIPT)
-    assert study.places_of_repetitions() == places
+    assert study.indices_of_repetitions() == indices
 
 
 def test_options_may_iterate_too(folder: Any) -> None:

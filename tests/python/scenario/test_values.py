@@ -13,8 +13,8 @@ from gradysim.scenario.parameter_types import (
     coordinate,
     file_name,
     integer,
+    node_coordinate,
     number,
-    place,
     quantity,
     text,
 )
@@ -181,7 +181,7 @@ def test_a_truth_in_the_place_of_a_number_is_named_as_it_is_written() -> None:
 
 @pytest.mark.parametrize("text", ["uniform(0m, 1km)", " uniform ( -5km,5m ) ", "50m * parentIndex()", "3m"])
 def test_what_is_right_with_one_seed_is_so_with_all(text: str) -> None:
-    assert is_right_for_all_seeds(text, place())
+    assert is_right_for_all_seeds(text, node_coordinate())
 
 
 @pytest.mark.parametrize(
@@ -198,7 +198,7 @@ def test_what_is_right_with_one_seed_is_so_with_all(text: str) -> None:
     ],
 )
 def test_others_may_be_wrong_with_another_seed(text: str) -> None:
-    assert not is_right_for_all_seeds(text, place())
+    assert not is_right_for_all_seeds(text, node_coordinate())
 
 
 def test_where_other_lines_count_all_seeds_have_to_be_tried() -> None:

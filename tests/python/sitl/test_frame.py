@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gradysim.protocol.position import geo_to_cartesian
-from gradysim.sitl.frame import autopilots_place, cartesian_to_geo, home_of, off_null_island
+from gradysim.sitl.frame import autopilots_coordinates, cartesian_to_geo, home_of, off_null_island
 
 references = st.tuples(st.floats(-80, 80), st.floats(-180, 180), st.floats(-100, 5000))
 points = st.tuples(*[st.floats(-100_000, 100_000)] * 2, st.floats(-1000, 10_000))
@@ -49,16 +49,16 @@ def test_all_other_places_stay(place):
 
 def test_an_autopilots_earth_is_flat_and_a_little_larger():
     home = (60.0, 30.0, 100.0)
-    latitude, longitude, height = autopilots_place(home, (1000.0, -1000.0, 20.0))
+    latitude, longitude, height = autopilots_coordinates(home, (1000.0, -1000.0, 20.0))
     degree_m = math.pi / 180 * 6_378_100
     assert (latitude - 60.0) * degree_m == pytest.approx(1000)
     assert (longitude - 30.0) * degree_m / 2 == pytest.approx(-1000)
     assert height == 20.0
-    assert autopilots_place(home, (0.0, 0.0, 0.0)) == pytest.approx((60.0, 30.0, 0.0))
+    assert autopilots_coordinates(home, (0.0, 0.0, 0.0)) == pytest.approx((60.0, 30.0, 0.0))
 
 
 @pytest.mark.parametrize(("longitude", "east_m"), [(179.9998, 60.0), (-179.9998, -60.0)])
 def test_it_ends_at_the_date_line(longitude, east_m):
-    assert autopilots_place((0.0, longitude, 0.0), (0.0, -east_m, 5.0))[2] == 5.0
+    assert autopilots_coordinates((0.0, longitude, 0.0), (0.0, -east_m, 5.0))[2] == 5.0
     with pytest.raises(ValueError, match="date"):
-        autopilots_place((0.0, longitude, 0.0), (0.0, east_m, 5.0))
+        autopilots_coordinates((0.0, longitude, 0.0), (0.0, east_m, 5.0))

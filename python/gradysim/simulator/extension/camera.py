@@ -87,11 +87,11 @@ class CameraHardware(Extension):
         A node at the position of the camera is always visible.
         """
         positions = self._world.node_positions()
-        place = positions[self._node_id]
+        own = positions[self._node_id]
         return [
             {"position": position, "type": "node"}
             for node_id, position in positions.items()
-            if node_id != self._node_id and self._sees(place, position)
+            if node_id != self._node_id and self._sees(own, position)
         ]
 
     def change_facing(self, facing_elevation: float, facing_rotation: float) -> None:
@@ -101,8 +101,8 @@ class CameraHardware(Extension):
         )
         self._camera_vector = _axis(self._configuration)
 
-    def _sees(self, place: Position, position: Position) -> bool:
-        dx, dy, dz = position[0] - place[0], position[1] - place[1], position[2] - place[2]
+    def _sees(self, own: Position, position: Position) -> bool:
+        dx, dy, dz = position[0] - own[0], position[1] - own[1], position[2] - own[2]
         distance = math.hypot(dx, dy, dz)
         if distance > self._configuration.camera_reach:
             return False

@@ -67,7 +67,7 @@ class Flight:
         self._link.on_message = self._note
         self._vehicle = Vehicle(self._link)
         self.pilot = Pilot(
-            self._vehicle, self._place_of, node.position, configuration.default_speed, real_time
+            self._vehicle, self._coordinates_of, node.position, configuration.default_speed, real_time
         )
         self._connection: Connection | None = None
         self._ground_station: GroundStationPort | None = None
@@ -90,7 +90,7 @@ class Flight:
         is_simulated = fleet is not None
         await prepare(
             vehicle,
-            self._place_of(initial),
+            self._coordinates_of(initial),
             position_hz=self._position_hz,
             speed_mps=configuration.default_speed,
             timeout_s=timeout_s,
@@ -179,20 +179,20 @@ class Flight:
             await asyncio.sleep(_RESTORE_S)
             self._vehicle.restore_stream(self._position_hz)
 
-    def _place_of(self, point: Position) -> Position:
+    def _coordinates_of(self, point: Position) -> Position:
         """Return (latitude deg, longitude deg, height above home m) of a point of the frame."""
         latitude, longitude, _ = cartesian_to_geo(self._reference, point)
         check_same_hemisphere(self._start, longitude)
         return (latitude, longitude, point[2])
 
     def _check_distance(self, initial: Position) -> None:
-        place = self._vehicle.position
-        if place is None:
+        coordinates = self._vehicle.position
+        if coordinates is None:
             raise SitlError(f"{self._link.name}: no position: it does not send GLOBAL_POSITION_INT")
-        distance_m = math.dist(initial[:2], geo_to_cartesian(self._reference, place)[:2])
+        distance_m = math.dist(initial[:2], geo_to_cartesian(self._reference, coordinates)[:2])
         if distance_m > _FARTHEST_START_M:
             raise SitlError(
-                f"{self._link.name}: it is at latitude {place[0]:.5f}, longitude {place[1]:.5f}, "
+                f"{self._link.name}: it is at latitude {coordinates[0]:.5f}, longitude {coordinates[1]:.5f}, "
                 f"{distance_m / 1000:.0f} km from its initial position: check reference_coordinates"
             )
 
@@ -211,8 +211,8 @@ class Flight:
     def _note_position(self, message: Message) -> None:
         latitude, longitude, height_m = position_of(message)
         # Heights count from home, so a vehicle with a wrong altitude does not dive.
-        place = (latitude, longitude, self._reference[2] + height_m)
-        self._node.position = geo_to_cartesian(self._reference, place)
+        coordinates = (latitude, longitude, self._reference[2] + height_m)
+        self._node.position = geo_to_cartesian(self._reference, coordinates)
         self._is_fresh = True
         self._silent_s = 0.0
 

@@ -148,12 +148,12 @@ class MobilityFollowerPlugin:
         if state.id == self._leader:
             self._leader_position = state.position
             self._leader_orientation = state.orientation
-            self._take_place(state.position, state.orientation)
+            self._take_position(state.position, state.orientation)
             answer = SendMessageCommand(encode_follower(self._provider.get_id()), state.id)
             self._provider.send_communication_command(answer)
         return DispatchReturn.INTERRUPT
 
-    def _take_place(self, leader: Position, orientation: float) -> None:
+    def _take_position(self, leader: Position, orientation: float) -> None:
         relative = self._relative_position
         if self._configuration.follow_orientation:
             relative = rotate_position_2d(relative, orientation)
