@@ -104,9 +104,9 @@ export class Beside extends Page {
     const groups = [...new Set(all.map(({ group }) => group))];
     const titles = titlesOf(files);
     const window = { fromNs: 0, toNs: 0 };
-    this.views = files.map(({ replay, address }, place) => {
-      const legendOf = place === 0 ? replays : [];
-      return new Part(replay, titles[place], address, this, { groups, window, legendOf });
+    this.views = files.map(({ replay, address }, index) => {
+      const legendOf = index === 0 ? replays : [];
+      return new Part(replay, titles[index], address, this, { groups, window, legendOf });
     });
     this.leader = this.views[0];
     const heads = ["", ...titles, ...(titles.length === 2 ? ["difference"] : [])].map((head) => make("th", {}, head));
@@ -143,7 +143,7 @@ export class Beside extends Page {
     const next = direction > 0 ? Math.min(...times) : Math.max(...times);
     if (!Number.isFinite(next)) return;
     this.clock.seek(next);
-    this.choose(found.map((frame, place) => (times[place] === next ? frame : null)));
+    this.choose(found.map((frame, index) => (times[index] === next ? frame : null)));
   }
 
   chooseName(name: string | null): void {
@@ -204,8 +204,8 @@ export class Beside extends Page {
   }
 
   private choose(frames: (Frame | null)[]): void {
-    this.views.forEach((view, place) => {
-      void view.choose(frames[place] ?? null, this.name).then(() => this.redraw());
+    this.views.forEach((view, index) => {
+      void view.choose(frames[index] ?? null, this.name).then(() => this.redraw());
     });
     this.redraw();
   }
@@ -243,9 +243,9 @@ export class Beside extends Page {
         row.classList.toggle("sum", !names.has(name));
         paintOutcome(row, name);
         setText(row.children[0].children[1], outcomeWords(name));
-        for (const [place, text] of columnsOf(counts).entries()) setText(row.children[place + 1], text);
-        counts.forEach((count, place) => {
-          (row.children[place + 1] as HTMLElement).title = shareText(count / columns[place].total);
+        for (const [index, text] of columnsOf(counts).entries()) setText(row.children[index + 1], text);
+        counts.forEach((count, index) => {
+          (row.children[index + 1] as HTMLElement).title = shareText(count / columns[index].total);
         });
       },
     );

@@ -32,9 +32,9 @@ export class Camera {
     return this.camera.position.distanceTo(this.controls.target);
   }
 
-  /** How long a meter is at a place, in pixels of the page. */
-  pixelsPerMeter(place: THREE.Vector3): number {
-    const distance = this.camera.position.distanceTo(place);
+  /** How long a meter is at a point, in pixels of the page. */
+  pixelsPerMeter(point: THREE.Vector3): number {
+    const distance = this.camera.position.distanceTo(point);
     return this.heightPx / (2 * distance * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2)));
   }
 
@@ -49,9 +49,9 @@ export class Camera {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Show these places, from the direction from which it looks now, or from this angle to the vertical. */
-  fit(places: readonly THREE.Vector3[], polar = this.controls.getPolarAngle()): void {
-    const box = new THREE.Box3().setFromPoints([...places]);
+  /** Show these points, from the direction from which it looks now, or from this angle to the vertical. */
+  fit(points: readonly THREE.Vector3[], polar = this.controls.getPolarAngle()): void {
+    const box = new THREE.Box3().setFromPoints([...points]);
     this.radius = Math.max(box.getBoundingSphere(new THREE.Sphere()).radius, 5);
     box.getCenter(this.controls.target);
     const azimuth = polar > 0.01 ? this.controls.getAzimuthalAngle() : 0;
@@ -59,7 +59,7 @@ export class Camera {
     for (let step = 0; step < 6; step += 1) {
       this.place(distance, polar, azimuth);
       this.camera.updateMatrixWorld();
-      const seen = new THREE.Box3().setFromPoints(places.map((place) => place.clone().project(this.camera)));
+      const seen = new THREE.Box3().setFromPoints(points.map((point) => point.clone().project(this.camera)));
       const middle = seen.getCenter(new THREE.Vector3());
       const size = seen.getSize(new THREE.Vector3());
       const half = distance * Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
@@ -73,9 +73,9 @@ export class Camera {
 
   /** Look from where another camera does, whose coordinates begin at `shift`. */
   lookAs(other: Camera, shift: THREE.Vector3): void {
-    const [place, target] = [other.camera.position, other.target].map((one) => one.clone().add(shift));
-    if (place.equals(this.camera.position) && target.equals(this.target)) return;
-    this.camera.position.copy(place);
+    const [point, target] = [other.camera.position, other.target].map((one) => one.clone().add(shift));
+    if (point.equals(this.camera.position) && target.equals(this.target)) return;
+    this.camera.position.copy(point);
     this.controls.target.copy(target);
     this.controls.update();
   }
@@ -88,16 +88,16 @@ export class Camera {
   }
 
   /** Keep a node where it is on the screen, at first in the middle and near; null: follow none. */
-  follow(place: THREE.Vector3 | null, range = Infinity): void {
-    if (place === null) {
+  follow(point: THREE.Vector3 | null, range = Infinity): void {
+    if (point === null) {
       this.followed.x = NaN;
       return;
     }
     const isNew = Number.isNaN(this.followed.x);
-    const step = place.clone().sub(isNew ? this.controls.target : this.followed);
-    this.followed.copy(place);
+    const step = point.clone().sub(isNew ? this.controls.target : this.followed);
+    this.followed.copy(point);
     if (isNew && this.distance > range * 5) {
-      this.controls.target.copy(place);
+      this.controls.target.copy(point);
       this.place(range * 5, this.controls.getPolarAngle(), this.controls.getAzimuthalAngle());
       return;
     }

@@ -51,7 +51,7 @@ export class Charts {
     const view = this.view;
     const wasAll = view === null || view[1] - view[0] >= this.endS;
     this.endS = endS;
-    if (before.length === now.length && before.every((series, place) => series === now[place]))
+    if (before.length === now.length && before.every((series, index) => series === now[index]))
       for (const { plot, curves } of this.charts) plot?.setData(dataOf(curves, endS));
     else {
       for (const { plot } of this.charts) plot?.destroy();
@@ -95,7 +95,7 @@ export class Charts {
     const timeS = this.pointedS ?? this.timeS;
     this.showTime(timeS);
     for (const { curves, values } of this.charts)
-      for (const [place, { series }] of curves.entries()) setText(values[place], valueText(series, timeS));
+      for (const [index, { series }] of curves.entries()) setText(values[index], valueText(series, timeS));
   }
 
   private add(curves: Curve[], areSeveral: boolean): Chart {
@@ -192,7 +192,7 @@ function dataOf(curves: readonly Curve[], endS: number): uPlot.AlignedData {
   const [times, , ...joined] = uPlot.join([whole, ...tables]);
   // Each value holds until the next one, so that it counts in a part of the run without any.
   for (const values of joined)
-    for (let place = 1; place < values.length; place += 1)
-      if (values[place] === undefined) (values as (number | null | undefined)[])[place] = values[place - 1];
+    for (let index = 1; index < values.length; index += 1)
+      if (values[index] === undefined) (values as (number | null | undefined)[])[index] = values[index - 1];
   return [times, ...joined];
 }

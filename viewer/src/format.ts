@@ -45,7 +45,7 @@ export interface Run {
   outcomes: string[];
   kinds: string[];
   event_kinds: string[];
-  /** Places (x, y, z, x, …) that the first picture shows, besides the nodes. */
+  /** Positions (x, y, z, x, …) that the first picture shows, besides the nodes. */
   extent_m?: number[];
 }
 
@@ -95,7 +95,7 @@ function fromBase64(text: string): Uint8Array<ArrayBuffer> {
   if (native.fromBase64) return native.fromBase64(text);
   const binary = atob(text);
   const bytes = new Uint8Array(binary.length);
-  for (let place = 0; place < binary.length; place += 1) bytes[place] = binary.charCodeAt(place);
+  for (let offset = 0; offset < binary.length; offset += 1) bytes[offset] = binary.charCodeAt(offset);
   return bytes;
 }
 
@@ -125,9 +125,9 @@ export class PackedChunk implements StoredChunk {
         continue;
       }
       const bytes = this.bytes(start, start + size);
-      let place = 0;
+      let offset = 0;
       const decoded = columns.map(async ([column, type, delta, length]) => {
-        const packed = bytes.subarray(place, (place += length));
+        const packed = bytes.subarray(offset, (offset += length));
         const values = rows === 0 ? empty(type) : unshuffle(await inflate(packed, rows * BYTES[type]), type, rows);
         if (delta) accumulate(values);
         return [column, values] as const;
@@ -154,10 +154,10 @@ async function inflate(packed: Uint8Array<ArrayBuffer>, size: number): Promise<U
   writer.close().catch(() => {});
   const reader = readable.getReader();
   const bytes = new Uint8Array(size);
-  let place = 0;
+  let offset = 0;
   for (let part = await reader.read(); !part.done; part = await reader.read()) {
-    bytes.set(part.value, place);
-    place += part.value.length;
+    bytes.set(part.value, offset);
+    offset += part.value.length;
   }
   return bytes;
 }
@@ -181,7 +181,7 @@ function unshuffle(bytes: Uint8Array, type: ColumnType, rows: number): Values {
   const joined = new Uint8Array(rows * width);
   for (let byte = 0; byte < width; byte += 1) {
     const plane = bytes.subarray(byte * rows, (byte + 1) * rows);
-    for (let row = 0, place = byte; row < rows; row += 1, place += width) joined[place] = plane[row];
+    for (let row = 0, offset = byte; row < rows; row += 1, offset += width) joined[offset] = plane[row];
   }
   if (type === "i16") return new Int16Array(joined.buffer);
   return type === "u32" ? new Uint32Array(joined.buffer) : new Float64Array(joined.buffer);

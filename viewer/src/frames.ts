@@ -71,7 +71,7 @@ export class FrameList {
       this.field.value = this.store.now.filter;
     const before = this.around(timeNs, filter, -1, BEFORE).reverse();
     const after = this.around(timeNs, filter, 1, AFTER);
-    const focused = this.shown[this.placeOfFocus()];
+    const focused = this.shown[this.indexOfFocus()];
     this.shown = [...before, ...after];
     setText(this.note, this.shown.length ? "" : this.noteOf(filter));
     showRows(this.list, this.shown, frameButton, (element, frame) => this.fill(element, frame, timeNs));
@@ -85,18 +85,18 @@ export class FrameList {
     }
   }
 
-  private placeOfFocus(): number {
+  private indexOfFocus(): number {
     return [...this.list.children].indexOf(document.activeElement as Element);
   }
 
   /** Rows change under the focus: let it stay at its frame, so that Enter does not choose another one. */
   private keepFocus(frame: Frame | undefined): void {
-    const old = this.placeOfFocus();
+    const old = this.indexOfFocus();
     if (old < 0 || frame === undefined) return;
-    const place = this.shown.findIndex((other) => isSameFrame(other, frame));
-    if (place === old) return;
+    const index = this.shown.findIndex((other) => isSameFrame(other, frame));
+    if (index === old) return;
     (document.activeElement as HTMLElement).blur();
-    if (place >= 0) (this.list.children[place] as HTMLElement).focus({ preventScroll: true });
+    if (index >= 0) (this.list.children[index] as HTMLElement).focus({ preventScroll: true });
   }
 
   /** What to say when no frame fits near. */

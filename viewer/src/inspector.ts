@@ -69,10 +69,10 @@ export class Inspector {
     }
     const [x, y, z] = positions.subarray(node * 3, node * 3 + 3);
     const { group, protocol, id, range_m } = this.replay.nodes.get(node)!;
-    const place = [x, y, z].map((value) => value.toFixed(1)).join(", ");
+    const position = [x, y, z].map((value) => value.toFixed(1)).join(", ");
     const range = range_m === null ? "" : ` · range ${distanceText(range_m)}`;
     const names = [...new Set([group, protocol])].join(" · ");
-    setText(this.facts, `id ${id} · ${names}${range} · at (${place}) m`);
+    setText(this.facts, `id ${id} · ${names}${range} · at (${position}) m`);
     this.showNeighbors(node, positions);
     this.showEvents(timeNs);
   }

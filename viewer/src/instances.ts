@@ -42,7 +42,7 @@ export class Instances {
 
   add(...row: number[]): void {
     if (this.used + this.stride > this.data.length) this.grow((2 * this.data.length) / this.stride);
-    for (let place = 0; place < row.length; place += 1) this.data[this.used + place] = row[place];
+    for (let offset = 0; offset < row.length; offset += 1) this.data[this.used + offset] = row[offset];
     this.used += this.stride;
   }
 
@@ -65,10 +65,10 @@ export class Instances {
     geometry.dispose();
     const buffer = new THREE.InstancedInterleavedBuffer(data, this.stride);
     buffer.setUsage(THREE.DynamicDrawUsage);
-    let place = 0;
+    let offset = 0;
     for (const [name, size] of Object.entries(this.layout)) {
-      geometry.setAttribute(name, new THREE.InterleavedBufferAttribute(buffer, size, place));
-      place += size;
+      geometry.setAttribute(name, new THREE.InterleavedBufferAttribute(buffer, size, offset));
+      offset += size;
     }
   }
 }

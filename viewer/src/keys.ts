@@ -27,8 +27,8 @@ const KEYS: [keys: string, words: string][] = [
 
 export function listenToKeys(controls: Controls, actions: Actions, clock: Clock): void {
   const faster = (steps: number): void => {
-    const place = SPEEDS.findIndex((speed) => speed >= clock.speed) + steps;
-    actions.setSpeed(SPEEDS[Math.min(Math.max(0, place), SPEEDS.length - 1)]);
+    const index = SPEEDS.findIndex((speed) => speed >= clock.speed) + steps;
+    actions.setSpeed(SPEEDS[Math.min(Math.max(0, index), SPEEDS.length - 1)]);
   };
   const done: Record<string, () => void> = {
     " ": () => actions.playOrPause(),

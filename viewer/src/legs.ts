@@ -15,19 +15,19 @@ export class Legs {
     ({ first: this.first, rows: this.rows } = groupRows(table.node, nodeCount));
   }
 
-  /** Put the position of a node into `into`, from `place` on. A node without a leg is at NaN. */
-  position(node: number, timeNs: number, into: Float64Array, place = 0): void {
+  /** Put the position of a node into `into`, from `offset` on. A node without a leg is at NaN. */
+  position(node: number, timeNs: number, into: Float64Array, offset = 0): void {
     const row = this.rowAt(node, timeNs);
     if (row < 0) {
-      into.fill(NaN, place, place + 3);
+      into.fill(NaN, offset, offset + 3);
       return;
     }
     const { time_ns, duration_ns, x0, y0, z0, x1, y1, z1 } = this.table;
     const since = timeNs - time_ns[row];
     const share = since >= duration_ns[row] ? 1 : Math.max(0, since / duration_ns[row]);
-    into[place] = x0[row] + share * (x1[row] - x0[row]);
-    into[place + 1] = y0[row] + share * (y1[row] - y0[row]);
-    into[place + 2] = z0[row] + share * (z1[row] - z0[row]);
+    into[offset] = x0[row] + share * (x1[row] - x0[row]);
+    into[offset + 1] = y0[row] + share * (y1[row] - y0[row]);
+    into[offset + 2] = z0[row] + share * (z1[row] - z0[row]);
   }
 
   /** Return in which direction a node moves: a vector of length 1, or 0 if it stands. */
@@ -43,8 +43,8 @@ export class Legs {
   /** Give the corners of the way of a node between two times, without its ends. */
   *corners(node: number, fromNs: number, toNs: number): Generator<[number, number, number, number]> {
     const { time_ns, x0, y0, z0 } = this.table;
-    for (let place = this.first[node]; place < this.first[node + 1]; place += 1) {
-      const row = this.rows[place];
+    for (let index = this.first[node]; index < this.first[node + 1]; index += 1) {
+      const row = this.rows[index];
       if (time_ns[row] > fromNs && time_ns[row] < toNs) yield [time_ns[row], x0[row], y0[row], z0[row]];
     }
   }
@@ -62,7 +62,7 @@ export class Legs {
     const first = this.first[node];
     const end = this.first[node + 1];
     if (first === end) return -1;
-    const next = firstNot((place) => this.table.time_ns[this.rows[place]] <= timeNs, end, first);
+    const next = firstNot((index) => this.table.time_ns[this.rows[index]] <= timeNs, end, first);
     return this.rows[Math.max(first, next - 1)];
   }
 }

@@ -32,33 +32,33 @@ export async function readLosses(replay: Replay, { chunk, row }: Frame): Promise
   const [losses, obstructions, interferers] = await Promise.all(names.map((name) => chunk.table(name)));
   const found = new Map<number, Loss>();
   const sender = replay.nameOf(chunk.frames.table.node[row]);
-  for (const place of rowsOf(losses, row)) {
-    const receiver = losses.receiver[place];
+  for (const index of rowsOf(losses, row)) {
+    const receiver = losses.receiver[index];
     const gains = [
-      { name: `antenna of ${sender}`, gain: losses.sender_antenna_cdb[place] / 100 },
-      { name: `antenna of ${replay.nameOf(receiver)}`, gain: losses.receiver_antenna_cdb[place] / 100 },
-      ...["ground", "shadowing", "fading"].map((name) => ({ name, gain: losses[`${name}_cdb`][place] / 100 })),
+      { name: `antenna of ${sender}`, gain: losses.sender_antenna_cdb[index] / 100 },
+      { name: `antenna of ${replay.nameOf(receiver)}`, gain: losses.receiver_antenna_cdb[index] / 100 },
+      ...["ground", "shadowing", "fading"].map((name) => ({ name, gain: losses[`${name}_cdb`][index] / 100 })),
     ];
     found.set(receiver, {
       sent: dbm(chunk.frames.table.power_cdbm[row]),
-      power: dbm(losses.power_cdbm[place]),
-      noise: dbm(losses.noise_cdbm[place]),
-      interference: dbm(losses.interference_cdbm[place]),
-      needed: losses.needed_cdb[place] / 100,
-      pathLoss: -losses.distance_cdb[place] / 100,
+      power: dbm(losses.power_cdbm[index]),
+      noise: dbm(losses.noise_cdbm[index]),
+      interference: dbm(losses.interference_cdbm[index]),
+      needed: losses.needed_cdb[index] / 100,
+      pathLoss: -losses.distance_cdb[index] / 100,
       gains,
       interferers: [],
     });
   }
-  for (const place of rowsOf(obstructions, row))
-    found.get(obstructions.receiver[place])?.gains.push({
-      name: replay.run.obstacles[obstructions.obstacle[place]].name,
-      gain: obstructions.gain_cdb[place] / 100,
+  for (const index of rowsOf(obstructions, row))
+    found.get(obstructions.receiver[index])?.gains.push({
+      name: replay.run.obstacles[obstructions.obstacle[index]].name,
+      gain: obstructions.gain_cdb[index] / 100,
     });
-  for (const place of rowsOf(interferers, row))
+  for (const index of rowsOf(interferers, row))
     found
-      .get(interferers.receiver[place])
-      ?.interferers.push({ node: interferers.node[place], power: dbm(interferers.power_cdbm[place]) });
+      .get(interferers.receiver[index])
+      ?.interferers.push({ node: interferers.node[index], power: dbm(interferers.power_cdbm[index]) });
   return found;
 }
 

@@ -100,8 +100,8 @@ export abstract class Page implements Actions {
   chooseNode(direction: 1 | -1): void {
     const ids = this.nodes.map(({ id }) => id);
     const { node } = this.store.now;
-    const place = node === null ? (direction > 0 ? -1 : ids.length) : ids.indexOf(node);
-    this.store.set({ node: ids[(place + direction + ids.length) % ids.length] });
+    const index = node === null ? (direction > 0 ? -1 : ids.length) : ids.indexOf(node);
+    this.store.set({ node: ids[(index + direction + ids.length) % ids.length] });
   }
 
   clearChoice(): void {

@@ -70,8 +70,8 @@ export class Frames {
     const sender = this.sender[row];
     const ordinal = this.ordinal[row];
     const { first, rows } = this.changes;
-    for (let place = first[sender]; place < first[sender + 1]; place += 1) {
-      const change = rows[place];
+    for (let index = first[sender]; index < first[sender + 1]; index += 1) {
+      const change = rows[index];
       if (this.since[change] > ordinal) break;
       const outcome = this.changed.outcome[change];
       if (ordinal < this.until[change] && outcome !== BELOW_SENSITIVITY)
@@ -85,9 +85,9 @@ export class Frames {
     for (let sender = 0; sender + 1 < this.changes.first.length; sender += 1) {
       const first = this.rows.first[sender];
       // Of this sender, among the first rows.
-      const frames = firstNot((place) => this.rows.rows[first + place] < rows, this.rows.first[sender + 1] - first);
-      for (let place = this.changes.first[sender]; place < this.changes.first[sender + 1]; place += 1) {
-        const change = this.changes.rows[place];
+      const frames = firstNot((index) => this.rows.rows[first + index] < rows, this.rows.first[sender + 1] - first);
+      for (let index = this.changes.first[sender]; index < this.changes.first[sender + 1]; index += 1) {
+        const change = this.changes.rows[index];
         if (this.since[change] >= frames) break;
         const outcome = this.changed.outcome[change];
         if (outcome === BELOW_SENSITIVITY) continue;
@@ -108,13 +108,13 @@ export class Frames {
     let mask = 0;
     let lost = 0;
     let known = 0;
-    let place = this.changes.first[sender];
+    let index = this.changes.first[sender];
     const end = this.changes.first[sender + 1];
     for (let ordinal = 0; ordinal < this.rows.first[sender + 1] - this.rows.first[sender]; ordinal += 1) {
       const row = this.rows.rows[this.rows.first[sender] + ordinal];
       this.ordinal[row] = ordinal;
-      for (; place < end && frame[this.changes.rows[place]] === row; place += 1) {
-        const change = this.changes.rows[place];
+      for (; index < end && frame[this.changes.rows[index]] === row; index += 1) {
+        const change = this.changes.rows[index];
         this.since[change] = ordinal;
         const before = last[receiver[change]];
         if (before !== 0) {

@@ -175,12 +175,12 @@ export class Replay {
 
   /** Return the position of each node: x, y and z of node n are at 3 n. Needs `load`. */
   positions(timeNs: number): Float64Array {
-    const places = new Float64Array(this.nodeCount * 3);
+    const positions = new Float64Array(this.nodeCount * 3);
     const chunk = this.chunk(this.chunkIndexAt(timeNs));
     for (const node of this.nodes.keys())
-      if (chunk) chunk.legs.position(node, timeNs, places, node * 3);
-      else places.fill(NaN, node * 3, node * 3 + 3);
-    return places;
+      if (chunk) chunk.legs.position(node, timeNs, positions, node * 3);
+      else positions.fill(NaN, node * 3, node * 3 + 3);
+    return positions;
   }
 
   /** Return in which direction a node moves: a vector of length 1, or 0 if it stands. Needs `load`. */
@@ -188,7 +188,7 @@ export class Replay {
     return this.chunk(this.chunkIndexAt(timeNs))?.legs.heading(node, timeNs) ?? [0, 0, 0];
   }
 
-  /** Return places between which all nodes are during the whole run, as far as it is known: x, y, z, x, … */
+  /** Return positions between which all nodes are during the whole run, as far as it is known: x, y, z, x, … */
   extent(): number[] {
     const boxes = this.chunks.flatMap(({ header: { extent_m: box = [] } }) => {
       const axis = (first: number): number[] => (box.length ? [box[first], box[first + 3]] : []);
@@ -218,10 +218,10 @@ export class Replay {
 
   /** Return where a node was when a frame began. */
   position(node: number, frame: Frame): Float64Array {
-    const place = new Float64Array(3);
+    const position = new Float64Array(3);
     const chunk = this.chunk(this.chunkIndexAt(startOf(frame))) ?? frame.chunk;
-    chunk.legs.position(node, startOf(frame), place);
-    return place;
+    chunk.legs.position(node, startOf(frame), position);
+    return position;
   }
 
   /** Return the last frames that began after `fromNs` and until `toNs`, latest first. Needs `load`. */
@@ -271,8 +271,8 @@ export class Replay {
     const from = this.position(sender[row], frame);
     return [...this.nodes.keys()]
       .filter((node) => !others.has(node))
-      .map((node) => ({ node, place: this.position(node, frame) }))
-      .map(({ node, place }) => ({ node, meters: Math.hypot(...place.map((value, axis) => value - from[axis])) }))
+      .map((node) => ({ node, position: this.position(node, frame) }))
+      .map(({ node, position }) => ({ node, meters: Math.hypot(...position.map((value, axis) => value - from[axis])) }))
       .sort((a, b) => a.meters - b.meters)
       .slice(0, most)
       .map(({ node }) => node);

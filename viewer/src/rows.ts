@@ -9,7 +9,7 @@ export function showRows<T, E extends HTMLElement>(
 ): void {
   while (container.children.length > items.length) container.lastElementChild?.remove();
   while (container.children.length < items.length) container.append(create());
-  for (const [place, item] of items.entries()) update(container.children[place] as E, item);
+  for (const [index, item] of items.entries()) update(container.children[index] as E, item);
 }
 
 /** Set the text of an element if it differs: what is selected stays selected. */

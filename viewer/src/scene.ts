@@ -73,7 +73,7 @@ export class Scene {
     });
   }
 
-  /** Where a place is in the picture: coordinates are from the middle, so that numbers stay small. */
+  /** Where a position is in the picture: coordinates are from the middle, so that numbers stay small. */
   place(x: number, y: number, z: number): THREE.Vector3 {
     return new THREE.Vector3(x - this.origin.x, y - this.origin.y, z);
   }
@@ -82,7 +82,7 @@ export class Scene {
     return this.groups.get(this.replay.nodes.get(node)?.group ?? "") ?? 0;
   }
 
-  /** Show all of these places, given as x, y, z, x, …, and the obstacles. */
+  /** Show all of these positions, given as x, y, z, x, …, and the obstacles. */
   fit(values: ArrayLike<number>, polar?: number): void {
     const corners = this.replay.run.obstacles.flatMap(({ points, top_m }) =>
       points.flatMap(([x, y]) => [x, y, Math.min(top_m, 1000)]),
@@ -98,12 +98,12 @@ export class Scene {
   }
 
   zoomTo(values: ArrayLike<number>, polar?: number): void {
-    const places: THREE.Vector3[] = [];
-    for (let place = 0; place + 2 < values.length; place += 3)
-      if (!Number.isNaN(values[place])) places.push(this.place(values[place], values[place + 1], values[place + 2]));
-    if (!places.length) places.push(new THREE.Vector3());
+    const points: THREE.Vector3[] = [];
+    for (let offset = 0; offset + 2 < values.length; offset += 3)
+      if (!Number.isNaN(values[offset])) points.push(this.place(values[offset], values[offset + 1], values[offset + 2]));
+    if (!points.length) points.push(new THREE.Vector3());
     this.resize();
-    this.camera.fit(places, polar);
+    this.camera.fit(points, polar);
   }
 
   /** Zoom in on a frame, or else on a node; return whether there was one. */
@@ -187,8 +187,8 @@ export class Scene {
       if (z > 0.5) this.trails.add(end.x, end.y, end.z, end.x, end.y, 0, ...ink, 0.5, 0.25, 1, 0);
       if (!chunks.length || !(state.trails || isChosen)) continue;
       chunks[0].legs.position(node, Math.max(0, fromNs), start);
-      const corners = chunks.flatMap(({ legs, stored: { header } }, place) => [
-        ...legs.corners(node, place === 0 ? fromNs : Math.max(fromNs, header.start_ns - 1), timeNs),
+      const corners = chunks.flatMap(({ legs, stored: { header } }, index) => [
+        ...legs.corners(node, index === 0 ? fromNs : Math.max(fromNs, header.start_ns - 1), timeNs),
       ]);
       let [beforeNs, a] = [fromNs, this.place(start[0], start[1], start[2])];
       for (const [cornerNs, cx, cy, cz] of [...corners, [timeNs, x, y, z] as const]) {
@@ -210,12 +210,12 @@ export class Scene {
     const interference = rgb(outcomeColor("interference"));
     const usual = this.replay.nodes.size > 60 ? 9 : 13;
     for (const [node, { range_m }] of this.replay.nodes) {
-      const place = this.place(positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]);
-      const { x, y, z } = place;
+      const point = this.place(positions[node * 3], positions[node * 3 + 1], positions[node * 3 + 2]);
+      const { x, y, z } = point;
       if (Number.isNaN(x)) continue;
       const group = this.groupOf(node);
       const color = look.colors.get(node) ?? rgb(groupColor(group));
-      const size = look.radiusM ? Math.max(4, 2 * look.radiusM * this.camera.pixelsPerMeter(place)) : usual;
+      const size = look.radiusM ? Math.max(4, 2 * look.radiusM * this.camera.pixelsPerMeter(point)) : usual;
       this.marks.add(x, y, z, ...color, 1, size, group % shapes.SHAPES, ...this.replay.heading(node, timeNs));
       if (interfering.has(node)) this.marks.add(x, y, z, ...interference, 1, size + 12, shapes.CIRCLE, 0, 0, 0);
       if (node !== state.node) continue;

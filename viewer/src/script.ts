@@ -30,15 +30,15 @@ export function scriptInterface(
     async state(timeS) {
       const timeNs = timeS * 1e9;
       await replay.load(timeNs);
-      const places = replay.positions(timeNs);
+      const flat = replay.positions(timeNs);
       const tally = replay.tally(timeNs);
       const sums = tally.sums(null).map((count, outcome): [string, number] => [replay.run.outcomes[outcome], count]);
       const outcomes = Object.fromEntries(sums.filter(([, count]) => count));
       const ids = [...replay.nodes.keys()].sort((a, b) => a - b);
       const positions = ids.map((id): [number, number, number] => [
-        places[id * 3],
-        places[id * 3 + 1],
-        places[id * 3 + 2],
+        flat[id * 3],
+        flat[id * 3 + 1],
+        flat[id * 3 + 2],
       ]);
       return { time_s: timeS, positions, frames: tally.frames, outcomes };
     },

@@ -92,8 +92,8 @@ export class Sequence {
       const chunks = replay.chunks.length;
       const shown: unknown[] = [fromNs, spanNs, width, node, frame, pinned, filter, interferers, chunks, this.events.size];
       shown.push(isDark.matches, frames.length);
-      if (shown.some((value, place) => value !== this.drawn[place])) {
-        if ([3, 4, 5].some((place) => shown[place] !== this.drawn[place])) this.lanes = [];
+      if (shown.some((value, index) => value !== this.drawn[index])) {
+        if ([3, 4, 5].some((index) => shown[index] !== this.drawn[index])) this.lanes = [];
         this.drawn = shown;
         this.frames = frames;
         const { lanes, areAll } = lanesOf(replay, frames, picture, this.lanes);

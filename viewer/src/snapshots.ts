@@ -102,11 +102,11 @@ class SnapshotSource implements Source {
     const [fromNs, toNs] = [last, now].map((snapshot) => Math.round(snapshot.simulation_time * 1e9));
     const isFirst = this.startNs === null;
     this.startNs ??= fromNs;
-    now.nodes.forEach((node, place) => {
-      const [from, to] = [last.positions[place], now.positions[place]];
+    now.nodes.forEach((node, index) => {
+      const [from, to] = [last.positions[index], now.positions[index]];
       if (isFirst || from.some((value, axis) => value !== to[axis]))
         this.legs.push([fromNs, toNs - fromNs, node, ...from, ...to]);
-      for (const [name, value] of Object.entries(now.tracked_variables[place])) this.assign(toNs, node, name, value);
+      for (const [name, value] of Object.entries(now.tracked_variables[index])) this.assign(toNs, node, name, value);
     });
   }
 
@@ -159,7 +159,7 @@ class SnapshotSource implements Source {
 }
 
 function tableOf(columns: string[], rows: number[][]): Table {
-  return Object.fromEntries(columns.map((name, place) => [name, Float64Array.from(rows, (row) => row[place])]));
+  return Object.fromEntries(columns.map((name, index) => [name, Float64Array.from(rows, (row) => row[index])]));
 }
 
 function runOf({ x_range, y_range, z_range, nodes }: Greeting, first: Snapshot): Run {
@@ -175,9 +175,9 @@ function runOf({ x_range, y_range, z_range, nodes }: Greeting, first: Snapshot):
     description: "",
     ini: "",
     recorded: null,
-    nodes: first.nodes.map((id, place) => {
-      const protocol = nodes[place].replace(/ \d+$/, "");
-      return { id, name: nodes[place], group: protocol, protocol, range_m: null, far_loss: null };
+    nodes: first.nodes.map((id, index) => {
+      const protocol = nodes[index].replace(/ \d+$/, "");
+      return { id, name: nodes[index], group: protocol, protocol, range_m: null, far_loss: null };
     }),
     obstacles: [],
     outcomes: [],

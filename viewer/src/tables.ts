@@ -14,8 +14,8 @@ export function groupRows(
   return { first, rows };
 }
 
-/** Return the first place from `low` on, and before `high`, that is not `isBefore`, by binary search; `high` if there is none. */
-export function firstNot(isBefore: (place: number) => boolean, high: number, low = 0): number {
+/** Return the first index from `low` on, and before `high`, that is not `isBefore`, by binary search; `high` if there is none. */
+export function firstNot(isBefore: (index: number) => boolean, high: number, low = 0): number {
   while (low < high) {
     const middle = (low + high) >> 1;
     if (isBefore(middle)) low = middle + 1;
@@ -26,5 +26,5 @@ export function firstNot(isBefore: (place: number) => boolean, high: number, low
 
 /** Return how many of the sorted times are until a time, this one included. */
 export function countUntil(times: ArrayLike<number>, time: number): number {
-  return firstNot((place) => times[place] <= time, times.length);
+  return firstNot((index) => times[index] <= time, times.length);
 }

@@ -70,7 +70,7 @@ export class Tally {
     const sums = new Array<number>(this.outcomes).fill(0);
     const first = (node ?? 0) * this.outcomes;
     const counts = node === null ? this.counts : this.counts.subarray(first, first + this.outcomes);
-    for (const [place, count] of counts.entries()) sums[place % this.outcomes] += count;
+    for (const [index, count] of counts.entries()) sums[index % this.outcomes] += count;
     const unnoticed = this.unnoticedAt(node);
     if (unnoticed !== null && this.unnoticedOutcome >= 0) sums[this.unnoticedOutcome] = unnoticed;
     return sums;

@@ -36,7 +36,7 @@ export class Tracked {
       this.element.hidden = !this.nodes.length;
       this.pin.hidden = node === null;
       this.pin.setAttribute("aria-pressed", String(node !== null && pinned.includes(node)));
-      this.legend.replaceChildren(...(pinned.length ? this.nodes : []).map((one, place) => this.nameOf(one, place)));
+      this.legend.replaceChildren(...(pinned.length ? this.nodes : []).map((one, index) => this.nameOf(one, index)));
       void this.read();
     });
   }
@@ -57,10 +57,10 @@ export class Tracked {
     return [...new Set([...pinned, ...(node === null ? [] : [node])])];
   }
 
-  private nameOf(node: number, place: number): HTMLElement {
+  private nameOf(node: number, index: number): HTMLElement {
     const name = this.replay.nameOf(node);
     const isPinned = this.store.now.pinned.includes(node);
-    const { color, dash } = lineOf(place);
+    const { color, dash } = lineOf(index);
     const line = make("i", dash ? { class: "dashed" } : {});
     const element = make("span", {}, line, name, ...(isPinned ? [button("✕", `Unpin ${name}`, () => this.page.pin(node))] : []));
     element.style.setProperty("--color", color());
@@ -86,11 +86,11 @@ export class Tracked {
 
   private show(): void {
     const byName = new Map<string, Curve[]>();
-    this.nodes.forEach((node, place) => {
+    this.nodes.forEach((node, index) => {
       for (const series of this.histories.get(node)?.series.values() ?? []) {
         const curves = byName.get(series.name) ?? [];
         byName.set(series.name, curves);
-        curves.push({ series, ...lineOf(place), node: this.replay.nameOf(node) });
+        curves.push({ series, ...lineOf(index), node: this.replay.nameOf(node) });
       }
     });
     setText(this.note, byName.size || !this.nodes.length ? "" : "There are none.");
@@ -99,6 +99,6 @@ export class Tracked {
 }
 
 /** The line of a node: five colors, those next to each other far apart, and then the same ones dashed. */
-function lineOf(place: number): { color: () => string; dash: boolean } {
-  return { color: () => groupColor(place * 4), dash: place % 10 >= 5 };
+function lineOf(index: number): { color: () => string; dash: boolean } {
+  return { color: () => groupColor(index * 4), dash: index % 10 >= 5 };
 }

@@ -61,8 +61,8 @@ export async function readOn(replay: Replay, history: History, isWanted: () => b
 
 /** Return the value at a time as text. */
 export function valueText(series: Series, timeS: number): string {
-  const place = countUntil(series.timesS, timeS) - 1;
-  if (place < 0) return "–";
-  const value = series.values[place];
-  return value === null ? series.texts[place] : String(Number(value.toPrecision(7)));
+  const index = countUntil(series.timesS, timeS) - 1;
+  if (index < 0) return "–";
+  const value = series.values[index];
+  return value === null ? series.texts[index] : String(Number(value.toPrecision(7)));
 }
