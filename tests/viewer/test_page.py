@@ -475,7 +475,7 @@ def test_a_simulation_is_shown_while_it_runs(shown, browser):
     for node, (x, *rest) in enumerate(said["paused"]["positions"]):
         assert x == pytest.approx(x_m, abs=SPEED_MPS * 0.02)
         assert rest == [20 * node, 0]
-    assert shown.held_up_s > 0.4
+    assert shown.paused_s > 0.4
     assert said["near_pixels"] > 50
     assert "<b>seconds</b>" in said["text"]
     assert said["console"] == []

@@ -50,8 +50,8 @@ export class App extends Page {
       [make("main", { class: "stage" }, canvas, labels), this.sequence.element, this.side],
       [timeline.element],
     );
-    source.onChange = () => this.takeNews();
-    this.takeNews();
+    source.onChange = () => this.update();
+    this.update();
     this.clock.isPlaying = source.isLive;
     if (source.follows) this.clock.seek(this.clock.endNs);
     this.ready = this.open();
@@ -118,7 +118,7 @@ export class App extends Page {
   }
 
   /** More of the run has come. */
-  private takeNews(): void {
+  private update(): void {
     const { end, isLive, isLost } = this.replay.source;
     this.clock.grow(this.replay.endNs, isLive && !isLost && end === null);
     setText(this.warning, warningOf(this.replay));

@@ -50,7 +50,7 @@ public:
     const Trajectory& trajectory() const { return trajectory_; }
     void set_position_error(std::unique_ptr<GaussMarkov> error) { position_error_ = std::move(error); }
     // The position that telemetry reports. `now` does not decrease from call to call.
-    Position told_position(SimTime now) {
+    Position reported_position(SimTime now) {
         const Position here = trajectory_.position_at(now);
         return position_error_ ? here + position_error_->at(now.seconds()) : here;
     }

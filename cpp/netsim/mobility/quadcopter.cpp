@@ -84,18 +84,18 @@ Quadcopter::Thrust Quadcopter::thrust(GaussMarkov* position_error) {
     }
 
     // Velocity that the position asks for.
-    const double way_north = target_.x - here.x;
-    const double way_east = target_.y - here.y;
-    const double distance = std::sqrt(way_north * way_north + way_east * way_east);
+    const double delta_north = target_.x - here.x;
+    const double delta_east = target_.y - here.y;
+    const double distance = std::sqrt(delta_north * delta_north + delta_east * delta_east);
     const bool stays_up = distance > above_target_m && target_.z > -least_height_m;
-    const double way_down = (stays_up ? -least_height_m : target_.z) - here.z;
+    const double delta_down = (stays_up ? -least_height_m : target_.z) - here.z;
     const double pace = distance > 0 ? approach_mps(distance, speed_mps_) / distance : 0.0;
-    const double sink = way_down < 0 ? -approach_mps(-way_down, std::min(climb_mps, speed_mps_))
-                                     : approach_mps(way_down, std::min(descent_mps, speed_mps_));
+    const double sink = delta_down < 0 ? -approach_mps(-delta_down, std::min(climb_mps, speed_mps_))
+                                       : approach_mps(delta_down, std::min(descent_mps, speed_mps_));
 
     // Acceleration that the velocity asks for.
-    double north = velocity_gain * (pace * way_north - velocity_.x);
-    double east = velocity_gain * (pace * way_east - velocity_.y);
+    double north = velocity_gain * (pace * delta_north - velocity_.x);
+    double east = velocity_gain * (pace * delta_east - velocity_.y);
     double down = velocity_gain * (sink - velocity_.z);
     double size = std::sqrt(north * north + east * east);
     if (size > acceleration_mps2_) {

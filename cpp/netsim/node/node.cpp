@@ -242,8 +242,9 @@ void Node::report_position() {
     if (observed_) {
         on_telemetry_(position());
     }
-    call_protocol("handle_telemetry",
-                  [this](Protocol& protocol) { protocol.handle_telemetry(mobility_->told_position(now())); });
+    call_protocol("handle_telemetry", [this](Protocol& protocol) {
+        protocol.handle_telemetry(mobility_->reported_position(now()));
+    });
 }
 
 }  // namespace netsim

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from cyclopts import App, CycloptsError, CycloptsPanel, Group, UnknownOptionError, UnusedCliTokensError
 
-from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, say_mistake
+from gradysim.cli.errors import INTERRUPTED, MISTAKE, OK, abandon_output, is_about_output, report_error
 
 if TYPE_CHECKING:
     from cyclopts.help import HelpPanel
@@ -246,7 +246,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise
     except OSError as error:
         if not is_about_output(error):
-            return say_mistake(error)
+            return report_error(error)
         abandon_output()
         if isinstance(error, BrokenPipeError):  # the reader, such as `head`, has closed the pipe
             return OK

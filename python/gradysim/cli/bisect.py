@@ -9,7 +9,7 @@ from cyclopts import Parameter
 
 from gradysim.cli.campaign import campaign_of, print_json
 from gradysim.cli.console import console
-from gradysim.cli.errors import FAILED, OK, say_mistake
+from gradysim.cli.errors import FAILED, OK, report_error
 from gradysim.cli.options import DEFAULT_DIR, CampaignOptions, FileArgument, Integer
 from gradysim.ladder.assertion import Assertion
 from gradysim.ladder.bisect import Bisection, Verdict
@@ -59,8 +59,8 @@ def find_breaking_level(
                     *verdict_sentences(bisection, verdict), sep="\n", markup=False, highlight=False
                 )
             explained = _explained(campaign, verdict, options, executor)
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     if options.as_json:
         print_json(verdict_json(bisection, verdict, explained))
     elif explained is not None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import ConfigOption, FileArgument, SetOption, option_value
 from gradysim.cli.runs import check
 from gradysim.integrated.calibration import Calibration, calibrate, pair_of
@@ -94,8 +94,8 @@ def calibrate_power(
         if picture is not None:
             draw(found, picture)
             print(f"drawn in {picture}")
-    except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, CompiledPartMissingError, ImportError, ValueError, OSError) as error:
+        return report_error(error)
     return OK
 
 

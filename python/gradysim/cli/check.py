@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import MISTAKE, OK, say_mistake
+from gradysim.cli.errors import MISTAKE, OK, report_error
 from gradysim.cli.options import FileArgument, Mode, SetOption
 from gradysim.cli.runs import check, findings_of
 from gradysim.integrated.compiled_part import CompiledPartMissingError
@@ -46,8 +46,8 @@ def check_file(
             configs = configs or config_names(read_ini(file))
             for name in configs:
                 findings += check_config(file, name, mode, settings, errors)
-    except (CompiledPartMissingError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (CompiledPartMissingError, OSError) as error:
+        return report_error(error)
     found = ConfigErrors(errors.errors).errors if errors.errors else []
     reports: list[ConfigError | Finding] = [*found, *dict.fromkeys(findings)]
     for report in sorted(reports, key=lambda each: (str(each.file or ""), each.line)):

@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gradysim.cli.console import console, interval_text, number_column, report_table, text_column, write_csv
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import CompareOptions, ResultsArgument
 from gradysim.cli.study import check_quantities, conditions, drawn_text, read_study, warn_of_mixed_runs
 from gradysim.results.compare import Change, Pairs, pair_runs, varying_values
@@ -66,8 +66,8 @@ def compare(
             from gradysim.plots import save_changes
 
             files = save_changes(options.output, changes, pairs, before.name, after.name)
-    except (ConfigError, ImportError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, ImportError, OSError) as error:
+        return report_error(error)
     for directory, runs in {side.directory: side.runs for side in (before, after)}.items():
         warn_of_mixed_runs(directory, runs)
     warn_of_ranges(pairs)

@@ -8,7 +8,7 @@ from rich.table import Table
 
 from gradysim.cli.campaign import campaign_of, print_json, save
 from gradysim.cli.console import console, number_column, report_table
-from gradysim.cli.errors import FAILED, OK, say_mistake
+from gradysim.cli.errors import FAILED, OK, report_error
 from gradysim.cli.options import CampaignOptions, FigureOption, FileArgument, RunCountOption
 from gradysim.ladder.desync import Desync, desynchronize
 from gradysim.ladder.desync_words import desync_sentences, text_of_time
@@ -37,8 +37,8 @@ def desynchronize_timers(
             from gradysim.ladder.figures import jitter_numbers
 
             save(output, jitter_numbers(found), file, options, log=("x",))
-    except (ConfigError, ImportError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, ImportError, OSError) as error:
+        return report_error(error)
     if options.as_json:
         print_json(asdict(found))
     else:

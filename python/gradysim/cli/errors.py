@@ -27,23 +27,23 @@ def abandon_output() -> None:
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def say_mistake(mistake: Exception) -> int:
+def report_error(error: Exception) -> int:
     """Print an error of the user without a traceback, and return the exit code."""
-    if is_about_output(mistake):
-        raise mistake  # `main` handles it
-    print(text_of(mistake), file=sys.stderr)
+    if is_about_output(error):
+        raise error  # `main` handles it
+    print(text_of(error), file=sys.stderr)
     return MISTAKE
 
 
-def text_of(mistake: Exception) -> str:
+def text_of(error: Exception) -> str:
     """Return the message. An error of the system without a file name gets the line that caused it."""
-    if not isinstance(mistake, OSError):
-        return str(mistake)
-    if mistake.filename is not None:
-        return f"{mistake.filename}: {mistake.strerror}"
-    frames = traceback.extract_tb(mistake.__traceback__)
+    if not isinstance(error, OSError):
+        return str(error)
+    if error.filename is not None:
+        return f"{error.filename}: {error.strerror}"
+    frames = traceback.extract_tb(error.__traceback__)
     where = f" (in {frames[-1].name}, {frames[-1].filename}:{frames[-1].lineno})" if frames else ""
-    return f"{mistake.strerror or mistake}{where}"
+    return f"{error.strerror or error}{where}"
 
 
 def report_crashes() -> None:

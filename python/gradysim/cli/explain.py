@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.docs import with_commands
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import ConfigOption, FileArgument, Integer, SetOption
 from gradysim.cli.runs import check
 from gradysim.scenario.errors import ConfigError, Source
@@ -33,8 +33,8 @@ def explain_parameter(
         with contextlib.redirect_stdout(sys.stderr):  # protocols may print
             (scenario,) = check(file, config, str(run), settings)
         explanation = explain(scenario, parameter)
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     print(f"{explanation.name} = {explanation.value}")
     for label, text in _details(explanation):
         print(f"  {label:<{_WIDTH}}{text}")

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import MISTAKE, OK, say_mistake
+from gradysim.cli.errors import MISTAKE, OK, report_error
 from gradysim.cli.options import FileArgument
 from gradysim.encapsulator.run_context import gc_paused
 from gradysim.omnetpp_import import Outcome, Translation, translate
@@ -32,8 +32,8 @@ def import_file(file: FileArgument, /, *, output: OutputOption = Path("imported"
             translation = translate(file, output)
         output.mkdir(parents=True, exist_ok=True)
         target.write_text(translation.text, encoding="utf-8")
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     for line in _rows(translation, file):
         print(line)
     counts = ", ".join(f"{count} {action.value}" for action, count in translation.counts().items())

@@ -10,7 +10,7 @@ from rich.text import Text
 
 from gradysim.cli.campaign import campaign_of, print_json, save
 from gradysim.cli.console import console, interval_text, number_column, report_table, text_column
-from gradysim.cli.errors import FAILED, OK, say_mistake
+from gradysim.cli.errors import FAILED, OK, report_error
 from gradysim.cli.options import CampaignOptions, FigureOption, FileArgument, RunCountOption
 from gradysim.ladder.ladder import Rung, climb, largest_drop
 from gradysim.results.confidence_interval import Estimate
@@ -45,8 +45,8 @@ def climb_ladder(
             from gradysim.ladder.figures import ladder_numbers
 
             save(output, ladder_numbers(rungs, metric, len(campaign)), file, options)
-    except (ConfigError, ImportError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, ImportError, OSError) as error:
+        return report_error(error)
     if options.as_json:
         print_json({"metric": metric, "runs": len(campaign), "levels": [rung_json(rung) for rung in rungs]})
     else:

@@ -9,7 +9,7 @@ from rich.table import Table
 from rich.text import Text
 
 from gradysim.cli.console import console, interval_text, number_column, report_table, text_column, write_csv
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import Names, ResultsArgument
 from gradysim.cli.study import check_quantities, read_study, warn_of_mixed_runs
 from gradysim.results.means import Mean, means
@@ -41,8 +41,8 @@ def print_means(
         results = read_study(directory)
         found = means(results, wanted or None)
         check_quantities(wanted, (mean.quantity for mean in found), directory, results.quantities)
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     warn_of_mixed_runs(directory, results)
     if as_csv:
         write_means(found, sys.stdout)

@@ -12,7 +12,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from gradysim.cli import examples
-from gradysim.cli.errors import MISTAKE, OK, say_mistake
+from gradysim.cli.errors import MISTAKE, OK, report_error
 from gradysim.cli.options import Flag
 from gradysim.results.durable import naming
 from gradysim.scenario.errors import did_you_mean
@@ -52,7 +52,7 @@ def make_project(name: NameArgument = None, /, *, example: ExampleOption = False
                     source.read_text(encoding="utf-8").replace("NAME", folder.name), encoding="utf-8"
                 )
     except OSError as error:
-        return say_mistake(error)
+        return report_error(error)
     scenarios = shlex.quote(str(folder / f"{folder.name}.ini"))
     print(f"gradysim view {scenarios}                # watch: all reports collide")
     print(f"gradysim view {scenarios} -c Jittered    # with a random wait they arrive")
@@ -91,6 +91,6 @@ def _copy_example(name: str) -> int:
         with _making(directory):
             examples.copy_files(name, directory)
     except OSError as error:
-        return say_mistake(error)
+        return report_error(error)
     print(f"cd {name}", *examples.commands(name), sep="\n")
     return OK

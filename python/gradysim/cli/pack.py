@@ -6,7 +6,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import LOCKED, OK, say_mistake
+from gradysim.cli.errors import LOCKED, OK, report_error
 from gradysim.cli.options import Flag, ResultDir
 from gradysim.cli.progress import waiting
 from gradysim.cli.study import check_directory
@@ -44,8 +44,8 @@ def pack_results(
     except RunLockedError as locked:
         print(f"{directory}: a run is computed there: {locked}; expected its end before", file=sys.stderr)
         return LOCKED
-    except (ConfigError, ImportError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, ImportError, OSError) as error:
+        return report_error(error)
     runs = "run" if count == 1 else "runs"
     if unpack:
         print(f"unpacked {count:,} {runs} into {directory}{', and removed the packs' if remove else ''}")

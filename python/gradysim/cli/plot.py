@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import PlotOptions, ResultsArgument
 from gradysim.cli.study import conditions, drawn_text, read_study, warn_of_mixed_runs
 from gradysim.plots import save_figure
@@ -29,8 +29,8 @@ def draw_figure(directory: ResultsArgument, /, options: PlotOptions) -> int:
             baseline=options.baseline,
             omit=options.omit,
         )
-    except (ConfigError, ImportError, OSError, ValueError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, ImportError, OSError, ValueError) as error:
+        return report_error(error)
     warn_of_mixed_runs(directory, runs)
     print(drawn_text(files))
     return OK

@@ -15,7 +15,7 @@ from rich.console import Console
 
 from gradysim.cli.dask_workers import dask_workers
 from gradysim.cli.earlier_results import runs_to_do
-from gradysim.cli.errors import INTERRUPTED, OK, report_crashes, say_mistake
+from gradysim.cli.errors import INTERRUPTED, OK, report_crashes, report_error
 from gradysim.cli.executor import RunExecutor, Workers
 from gradysim.cli.interrupt import KILLING, StopOnInterrupt
 from gradysim.cli.memory import checked_limit
@@ -29,7 +29,7 @@ from gradysim.cli.output import (
 from gradysim.cli.progress import waiting
 from gradysim.cli.run_all import run_all
 from gradysim.cli.run_task import Command, RunTask, import_what_runs_use
-from gradysim.cli.runs import check, findings_of, tell, warnings_of_seeds
+from gradysim.cli.runs import check, findings_of, print_warnings, warnings_of_seeds
 from gradysim.cli.share import part_of_share
 from gradysim.cli.single_run import Run, check_names, simulator
 from gradysim.cli.until import Until, checked_until, rounds_of
@@ -96,8 +96,8 @@ def run_file(file: Path, options: RunOptions, executor: Executor | None = None) 
                 workers = ExecutorWorkers(executor, options.jobs, prepared.command)
             elif options.executor == "dask":
                 workers = connection.enter_context(dask_workers(prepared.command))
-        except (ConfigError, CompiledPartMissingError, OSError) as mistake:
-            return say_mistake(mistake)
+        except (ConfigError, CompiledPartMissingError, OSError) as error:
+            return report_error(error)
         left_s = None if stop_after_s is None else stop_after_s - (time.monotonic() - begin_s)
         return _execute(prepared, workers, left_s)
 
@@ -146,7 +146,7 @@ def _prepare(file: Path, options: RunOptions, study: Study | None = None) -> _Pr
         check_network, build = simulator(options)
         check_names(checked, options, len(study))
         check_file_names(study, options)
-        tell(warnings_of_seeds(study))
+        print_warnings(warnings_of_seeds(study))
         left = runs_to_do(study, options)
         if not left:
             return None
@@ -158,7 +158,7 @@ def _prepare(file: Path, options: RunOptions, study: Study | None = None) -> _Pr
                 with errors.collecting():
                     check_network(scenario, is_built_next=len(left) == 1)
             errors.raise_all()
-        tell(findings_of(checked, options.mode))
+        print_warnings(findings_of(checked, options.mode))
     command = Command.of(file, options, study, first=study.numbers[left[0]])
     return _Prepared(study, left, until, build, command)
 
@@ -212,8 +212,8 @@ def _run_rounds(
             code = run_all(study.config, [study.numbers[index] for index in indices], executor, on_progress)
             if code != OK:
                 return code
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     return OK
 
 

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 
 import gradysim.results.omnetpp  # noqa: F401 (before processes are forked)
 from gradysim.cli.earlier_results import is_done, is_of_other_settings
-from gradysim.cli.errors import INTERRUPTED, LOCKED, MISTAKE, OK, OVER_MEMORY, say_mistake
+from gradysim.cli.errors import INTERRUPTED, LOCKED, MISTAKE, OK, OVER_MEMORY, report_error
 from gradysim.cli.fork_executor import keep_from_forks
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.memory import checked_limit
 from gradysim.cli.options import RunOptions
 from gradysim.cli.output import check_outputs, files_under_way, remove_files_under_way, write_files
-from gradysim.cli.runs import check, tell
+from gradysim.cli.runs import check, print_warnings
 from gradysim.cli.single_run import execute, report, simulator
 from gradysim.execution.run_lock import RunLockedError, run_locked
 from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
@@ -133,7 +133,7 @@ class RunTask:
                         keep_from_forks(files_under_way(scenario, options))
                     outcome = execute(self.build, scenario, self.interrupt, self.terminal, memory_bytes)
                 if number == command.first:
-                    tell(outcome.findings)
+                    print_warnings(outcome.findings)
                 write = partial(write_files, scenario, options=options)
                 code, output_error = report(outcome, write, options, command.line_of(scenario))
         except RunLockedError as locked:
@@ -141,8 +141,8 @@ class RunTask:
             return LOCKED, None
         except KeyboardInterrupt:  # while it waited or was built
             return INTERRUPTED, None
-        except (ConfigError, CompiledPartMissingError, OSError) as mistake:
-            return say_mistake(mistake), None
+        except (ConfigError, CompiledPartMissingError, OSError) as error:
+            return report_error(error), None
         if memory_bytes is not None and isinstance(outcome.failure, MemoryError):
             print(f"{name}: it needs more than --memory {options.memory}", file=sys.stderr)
             return OVER_MEMORY, output_error

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from gradysim.cli.errors import OK, say_mistake
+from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import ConfigOption, FileArgument, SetOption
 from gradysim.integrated.ranges import lint_ranges
 from gradysim.scenario.errors import ArgumentNames, ConfigError
@@ -21,11 +21,11 @@ def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settin
     try:
         for number, repetition, iterations in runs_of(file, config, settings):
             print(f"Run {number}: {text_of_iterations({**iterations, 'repetition': repetition})}")
-    except ConfigError as mistake:
-        return say_mistake(mistake)
+    except ConfigError as error:
+        return report_error(error)
     with contextlib.suppress(ConfigError):  # `gradysim check` reports it
         first = check(file, config, None, settings)[0]
-        tell(unread_variables(first.unread_variables, first.lines))
+        print_warnings(unread_variables(first.unread_variables, first.lines))
     return OK
 
 
@@ -59,7 +59,7 @@ def _warn_of_repeated(settings: Sequence[str], file: Path, option: str) -> None:
             )
 
 
-def tell(warnings: Iterable[str | Finding]) -> None:
+def print_warnings(warnings: Iterable[str | Finding]) -> None:
     """Print each warning to standard error."""
     for warning in warnings:
         print(warning, file=sys.stderr)

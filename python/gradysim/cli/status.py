@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from gradysim.cli.earlier_results import State, states_of
-from gradysim.cli.errors import INCOMPLETE, OK, say_mistake
+from gradysim.cli.errors import INCOMPLETE, OK, report_error
 from gradysim.cli.options import DEFAULT_DIR, FileArgument, ResultDir, RunOptions, StatusOptions
 from gradysim.cli.runs import check
 from gradysim.cli.study import check_directory
@@ -35,8 +35,8 @@ def print_status(
         study = check(file, options.config, options.runs, options.settings, options.seed)
         for number, state, changed in states_of(study, _as_of_resume(directory, options)):
             found[state, changed].append(number)
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     done = found.get((State.DONE, ()), [])
     if options.missing:
         if left := sorted(set(study.numbers).difference(done)):

@@ -1,6 +1,6 @@
 """`gradysim verify`: whether the files of a study are complete, and as their runs left them."""
 
-from gradysim.cli.errors import FAILED, OK, say_mistake
+from gradysim.cli.errors import FAILED, OK, report_error
 from gradysim.cli.options import ResultsArgument
 from gradysim.cli.progress import waiting
 from gradysim.cli.study import check_directory
@@ -17,8 +17,8 @@ def verify_files(directory: ResultsArgument, /) -> int:
             files = list(verify(directory))
         if not files:
             raise ConfigError(f"{directory}: it has no results; expected those of `gradysim run`")
-    except (ConfigError, OSError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, OSError) as error:
+        return report_error(error)
     bad = [file for file in files if file.problem]
     for file in bad:
         print(f"{file.path}: {file.problem}")

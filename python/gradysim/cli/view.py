@@ -9,7 +9,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from gradysim.cli.errors import FAILED, OK, print_failure, say_mistake
+from gradysim.cli.errors import FAILED, OK, print_failure, report_error
 from gradysim.cli.guardian import children, ending_children
 from gradysim.cli.interrupt import StopOnInterrupt
 from gradysim.cli.options import Mode, ViewOptions
@@ -51,8 +51,8 @@ def view(*files: FilesArgument, options: ViewOptions = DEFAULTS) -> int:
         if files[0].suffix != ".ini" and files[0].is_file():
             raise ConfigError(f"{files[0]}: not a replay", expected="an .ini file, or a replay (.html)")
         return show_live(files[0], options)
-    except (ConfigError, CompiledPartMissingError, OSError, ValueError) as mistake:
-        return say_mistake(mistake)
+    except (ConfigError, CompiledPartMissingError, OSError, ValueError) as error:
+        return report_error(error)
 
 
 def check_replays(files: Sequence[Path]) -> None:

@@ -140,9 +140,9 @@ class EngineHandlers:
             handler.initialize()
 
     @property
-    def held_up_s(self) -> float:
+    def paused_s(self) -> float:
         """Wall time for which handlers paused the run, in seconds."""
-        return sum(getattr(handler, "held_up_s", 0.0) for handler in self.by_label.values())
+        return sum(getattr(handler, "paused_s", 0.0) for handler in self.by_label.values())
 
     def run_until(self, limit_s: float, max_events: int) -> bool:
         """Run at most `max_events` events up to `limit_s`; return whether these were all.

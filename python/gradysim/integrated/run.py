@@ -191,7 +191,7 @@ class IntegratedRun(ScenarioRun):
         handlers, factor = self._handlers, self._real_time_factor
         if factor == 0:
             return handlers.run_until
-        return RealTimeRun(handlers.run_until, factor, lambda: handlers.held_up_s).advance
+        return RealTimeRun(handlers.run_until, factor, lambda: handlers.paused_s).advance
 
     def _described(self, recorded: frozenset[int] | None) -> Mapping[str, Any]:
         return describe(

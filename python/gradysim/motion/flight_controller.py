@@ -126,21 +126,21 @@ class FlightController:
 
         # Velocity that the position asks for.
         target_north, target_east, target_down = self._target
-        way_north, way_east = target_north - north, target_east - east
-        distance = math.sqrt(way_north * way_north + way_east * way_east)
+        delta_north, delta_east = target_north - north, target_east - east
+        distance = math.sqrt(delta_north * delta_north + delta_east * delta_east)
         if distance > ABOVE_TARGET_M and target_down > -LEAST_HEIGHT_M:
             target_down = -LEAST_HEIGHT_M
-        way_down = target_down - down
+        delta_down = target_down - down
         limit = self.speed_mps
         pace = self._approach_mps(distance, limit) / distance if distance > 0 else 0.0
-        if way_down < 0:
-            sink = -self._approach_mps(-way_down, CLIMB_MPS if limit > CLIMB_MPS else limit)
+        if delta_down < 0:
+            sink = -self._approach_mps(-delta_down, CLIMB_MPS if limit > CLIMB_MPS else limit)
         else:
-            sink = self._approach_mps(way_down, DESCENT_MPS if limit > DESCENT_MPS else limit)
+            sink = self._approach_mps(delta_down, DESCENT_MPS if limit > DESCENT_MPS else limit)
 
         # Acceleration that the velocity asks for.
-        a_north = _VELOCITY_GAIN * (pace * way_north - v_north)
-        a_east = _VELOCITY_GAIN * (pace * way_east - v_east)
+        a_north = _VELOCITY_GAIN * (pace * delta_north - v_north)
+        a_east = _VELOCITY_GAIN * (pace * delta_east - v_east)
         a_down = _VELOCITY_GAIN * (sink - v_down)
         size = math.sqrt(a_north * a_north + a_east * a_east)
         largest = self._acceleration_mps2

@@ -124,9 +124,9 @@ def _changed(before: object, now: Mapping[str, str]) -> tuple[str, ...]:
 
 
 def _has_outcomes_at(outcomes_at: Iterable[int], nodes: object) -> bool:
-    told = nodes if isinstance(nodes, list) else []
-    asked = {"frame_outcomes", "message_outcomes"}
-    return {node.get("id") for node in told if isinstance(node, dict) and asked <= node.keys()}.issuperset(
+    listed = nodes if isinstance(nodes, list) else []
+    needed = {"frame_outcomes", "message_outcomes"}
+    return {node.get("id") for node in listed if isinstance(node, dict) and needed <= node.keys()}.issuperset(
         outcomes_at
     )
 

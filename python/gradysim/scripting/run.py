@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory, mkdtemp
 from gradysim.cli.errors import OK
 from gradysim.cli.options import RunOptions
 from gradysim.cli.run import run_study
-from gradysim.cli.runs import findings_of, tell
+from gradysim.cli.runs import findings_of, print_warnings
 from gradysim.replay.sink import ReplayWriter
 from gradysim.results import Runs, runs
 from gradysim.results.result import Mode, RunResult
@@ -85,7 +85,7 @@ def run_file(
     """Execute the runs of a study; see `gradysim.run` for arguments, results and exceptions."""
     check_mode(mode)
     if len(study) == 1 and result_dir is None:
-        tell(findings_of([study[0]], mode))
+        print_warnings(findings_of([study[0]], mode))
         return run_scenario(study[0], mode, replay, progress=progress)
     directory = Path(mkdtemp(prefix="gradysim-")) if result_dir is None else result_dir
     options = RunOptions(

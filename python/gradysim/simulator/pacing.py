@@ -107,19 +107,19 @@ class Pacing:
         pacer: RealTimePacer | None,
         asyncio_runner: AsyncioRunner | None,
         report: TimingReport | None,
-        held_up_s: Callable[[], float],
+        paused_s: Callable[[], float],
     ) -> None:
         """Wait for events up to the simulated time `until_s`.
 
         Without a pacer it runs at full speed, without an asyncio runner no handler uses asyncio. The report
-        notes each event, if there is a pacer. `held_up_s` returns the wall seconds of pauses so far.
+        notes each event, if there is a pacer. `paused_s` returns the wall seconds of pauses so far.
         """
         self._event_loop = event_loop
         self._until_s = until_s
         self._pacer = pacer
         self._asyncio_runner = asyncio_runner
         self._report = report
-        self._held_up_s = held_up_s
+        self._paused_s = paused_s
 
     def before_each(self, iterations: Iterable[int]) -> Iterator[int]:
         """Yield the numbers of events, each one when its event is due."""
@@ -133,7 +133,7 @@ class Pacing:
             if self._asyncio_runner is not None:
                 self._asyncio_runner.run_for(0.0)
             return
-        pacer.held_up_s = self._held_up_s()
+        pacer.paused_s = self._paused_s()
         next_time = self._next_time()
         if next_time is None:
             return

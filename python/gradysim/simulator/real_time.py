@@ -21,19 +21,19 @@ class RealTimePacer:
     """Compares simulated time with the wall clock, counted from the start, so that delays do not add up.
 
     Attributes:
-        held_up_s: Wall seconds of pauses, which the simulation does not catch up on.
+        paused_s: Wall seconds of pauses, which the simulation does not catch up on.
     """
 
     def __init__(self, factor: float) -> None:
         """Start now, with `factor` (> 0) simulated seconds per wall second."""
         self._factor = factor
         self._start = time.monotonic()
-        self.held_up_s = 0.0
+        self.paused_s = 0.0
 
     @property
     def elapsed_s(self) -> float:
         """Wall seconds since the start, without pauses."""
-        return time.monotonic() - self._start - self.held_up_s
+        return time.monotonic() - self._start - self.paused_s
 
     def due_s(self, ahead_s: float = 0.0) -> float:
         """Return the simulated time that is due now, or in `ahead_s` wall seconds."""

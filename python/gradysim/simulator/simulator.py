@@ -296,7 +296,7 @@ class Simulator:
             pacer=RealTimePacer(factor) if factor != 0 else None,
             asyncio_runner=self._asyncio_runner,
             report=self._report,
-            held_up_s=lambda: sum(getattr(handler, "held_up_s", 0.0) for handler in handlers),
+            paused_s=lambda: sum(getattr(handler, "paused_s", 0.0) for handler in handlers),
         )
 
     def _real_time_factor(self) -> float:

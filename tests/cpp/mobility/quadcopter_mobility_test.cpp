@@ -40,10 +40,10 @@ TEST(QuadcopterMobility, RefusesWhatNoVehicleCanDo) {
 
 TEST(QuadcopterMobility, TelemetryReportsTheErrorOfThePosition) {
     QuadcopterMobility mobility = hovering();
-    EXPECT_EQ(mobility.told_position(s(0)), (Position{0, 0, 20}));
+    EXPECT_EQ(mobility.reported_position(s(0)), (Position{0, 0, 20}));
     const GaussMarkov error(RandomStream(1, 0, Purpose::position_error), {1, 1, 1}, 30, 1);
     mobility.set_position_error(std::make_unique<GaussMarkov>(error));
-    EXPECT_EQ(mobility.told_position(s(2)), (Position{0, 0, 20} + GaussMarkov(error).at(2)));
+    EXPECT_EQ(mobility.reported_position(s(2)), (Position{0, 0, 20} + GaussMarkov(error).at(2)));
     EXPECT_EQ(mobility.trajectory().position_at(s(2)), (Position{0, 0, 20}));
 }
 

@@ -30,10 +30,10 @@ class Watching(INodeHandler):
         self.event_loop.schedule_event(self.event_loop.current_time + 0.25, self.look, "look")
 
     def look(self):
-        self.seen.append((self.event_loop.current_time, self.clock.now - 100.0 - self.held_up_s))
+        self.seen.append((self.event_loop.current_time, self.clock.now - 100.0 - self.paused_s))
         if self.pause_s and len(self.seen) == 3:
             self.clock.now += self.pause_s
-            self.held_up_s += self.pause_s
+            self.paused_s += self.pause_s
         self.schedule()
 
 

@@ -27,7 +27,7 @@ def test_who_is_late_does_not_sleep(wall_clock):
 def test_what_was_held_up_on_purpose_is_not_caught_up_on(wall_clock):
     pacer = real_time.RealTimePacer(2.0)
     wall_clock.now += 7.0
-    pacer.held_up_s = 4.0
+    pacer.paused_s = 4.0
     assert (pacer.elapsed_s, pacer.remaining_s(10.0)) == (3.0, 2.0)
 
 

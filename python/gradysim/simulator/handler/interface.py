@@ -17,11 +17,11 @@ class INodeHandler(ABC):
     `finalize` once, after the last event.
 
     Attributes:
-        held_up_s: Wall seconds for which the handler has paused the simulation since the last `initialize`. A
+        paused_s: Wall seconds for which the handler has paused the simulation since the last `initialize`. A
             simulation in real time does not catch up on them.
     """
 
-    held_up_s: float = 0.0
+    paused_s: float = 0.0
 
     @staticmethod
     @abstractmethod

@@ -23,7 +23,7 @@ def test_the_rest_is_optional():
 
 
 def test_a_handler_holds_nothing_up_unless_it_says_so():
-    assert Minimal().held_up_s == 0.0
+    assert Minimal().paused_s == 0.0
 
 
 @pytest.mark.parametrize("missing", ["get_label", "inject", "register_node"])

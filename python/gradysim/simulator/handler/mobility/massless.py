@@ -184,7 +184,7 @@ class MasslessMobilityHandler(INodeHandler):
             interval_s = configuration.update_rate
         if interval_s != 0:
             interval = _in_updates(interval_s, configuration.update_rate)
-            told = partial(self._told_position, node) if node.id in self.position_errors else None
+            told = partial(self._reported_position, node) if node.id in self.position_errors else None
             self._telemetry.setdefault(interval, TelemetryGroup(interval)).add(node, told)
 
     def handle_command(self, command: MobilityCommand, node: Node[Any]) -> None:
@@ -222,7 +222,7 @@ class MasslessMobilityHandler(INodeHandler):
         else:
             self.targets[node.id] = cast("Position", three_numbers(command))
 
-    def _told_position(self, node: Node[Any]) -> Position:
+    def _reported_position(self, node: Node[Any]) -> Position:
         assert self._event_loop is not None
         x, y, z = node.position
         dx, dy, dz = self.position_errors[node.id].at(self._event_loop.current_time)

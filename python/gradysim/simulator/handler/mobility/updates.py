@@ -59,9 +59,9 @@ class TelemetryGroup:
         self.due = math.ceil(interval_updates)
         self.deliveries: list[ScheduledEvent] = []
 
-    def add(self, node: Node[Any], told_position: Callable[[], Position] | None = None) -> None:
-        """Add a node. `told_position` returns what it learns; None for its position."""
-        self.deliveries.append((_delivery(node, told_position), context_of(node, "handle_telemetry")))
+    def add(self, node: Node[Any], reported_position: Callable[[], Position] | None = None) -> None:
+        """Add a node. `reported_position` returns what it learns; None for its position."""
+        self.deliveries.append((_delivery(node, reported_position), context_of(node, "handle_telemetry")))
 
     def is_due(self, update: int) -> bool:
         """Return whether telemetry comes with this update; the first one is 1. Call it for each in order.
@@ -76,12 +76,12 @@ class TelemetryGroup:
         return True
 
 
-def _delivery(node: Node[Any], told_position: Callable[[], Position] | None) -> Callable[[], None]:
+def _delivery(node: Node[Any], reported_position: Callable[[], Position] | None) -> Callable[[], None]:
     def deliver() -> None:
         node.protocol_encapsulator.handle_telemetry(Telemetry(node.position))
 
-    def deliver_told() -> None:
-        assert told_position is not None
-        node.protocol_encapsulator.handle_telemetry(Telemetry(told_position()))
+    def deliver_reported() -> None:
+        assert reported_position is not None
+        node.protocol_encapsulator.handle_telemetry(Telemetry(reported_position()))
 
-    return deliver if told_position is None else deliver_told
+    return deliver if reported_position is None else deliver_reported

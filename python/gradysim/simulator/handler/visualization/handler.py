@@ -67,7 +67,7 @@ class VisualizationHandler(INodeHandler):
 
     def initialize(self) -> None:
         """Start to serve viewers. If the address is in use, log a warning and run without viewers."""
-        self.held_up_s = 0.0
+        self.paused_s = 0.0
         self._start_wall_s = time.monotonic()
         welcome = greeting(self._configuration, list(self.nodes.values()))
         server = VisualizationServer(self._configuration, welcome, self.command_queue)
@@ -117,7 +117,7 @@ class VisualizationHandler(INodeHandler):
             try:
                 server.wait_while_paused()
             finally:
-                self.held_up_s += time.monotonic() - paused_at
+                self.paused_s += time.monotonic() - paused_at
 
     def _publish(self, server: VisualizationServer) -> None:
         assert self._event_loop is not None

@@ -157,7 +157,7 @@ def test_a_viewer_resumes_the_simulation(paused):
     at = simulation.current_time
     viewer.send('{"interaction": "pause/resume"}')
     assert viewer.read_until(lambda message: message.get("simulation_time", 0) > at)
-    assert show.handler.held_up_s > 0
+    assert show.handler.paused_s > 0
 
 
 def test_a_simulation_in_real_time_does_not_catch_up_on_a_pause(shown, monkeypatch, wall_clock):
@@ -188,10 +188,10 @@ def test_pauses_add_up(shown, monkeypatch, wall_clock):
         server._running.set()
 
     monkeypatch.setattr(server, "wait_while_paused", resume)
-    for held_up_s in (3, 6):
+    for paused_s in (3, 6):
         server._running.clear()
         simulation.run_events(5)
-        assert show.handler.held_up_s == held_up_s
+        assert show.handler.paused_s == paused_s
 
 
 def test_a_pause_ends_when_the_viewer_that_paused_leaves(paused):
@@ -337,4 +337,4 @@ def test_it_serves_one_simulation_after_the_other(shown):
 
 
 def test_handlers_in_general_hold_nothing_up():
-    assert INodeHandler.held_up_s == 0
+    assert INodeHandler.paused_s == 0
