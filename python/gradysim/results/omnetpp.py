@@ -7,8 +7,6 @@ import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime, timedelta
-from heapq import merge
-from itertools import repeat
 from operator import mul
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -281,19 +279,13 @@ def write_vector_file(vectors: Iterable[tuple[str, Vector]], identity: RunIdenti
     `vectors` are pairs (path of its module, vector), as `vectors_of` yields them.
     """
     with new_database(path, identity) as connection:
-        rows = [
-            zip(
-                vector.times_ps,
-                repeat(_insert_vector(connection, module, vector), len(vector.times_ps)),
-                vector.values,
-                strict=True,
+        for module, vector in vectors:
+            vector_id = _insert_vector(connection, module, vector)
+            connection.executemany(
+                "INSERT INTO vectorData (simtimeRaw, vectorId, value, eventNumber)"
+                f" VALUES (?, {vector_id}, ?, {NO_EVENT})",
+                zip(vector.times_ps, vector.values, strict=True),
             )
-            for module, vector in vectors
-        ]
-        connection.executemany(
-            f"INSERT INTO vectorData (simtimeRaw, vectorId, value, eventNumber) VALUES (?, ?, ?, {NO_EVENT})",
-            merge(*rows),  # by time; vectors have different ids, so that values are never compared
-        )
         connection.execute("CREATE INDEX vectorData_idx ON vectorData (vectorId)")
 
 

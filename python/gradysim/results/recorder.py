@@ -51,7 +51,8 @@ class _Samples:
         self._interval_ps = interval_ps
         self._is_continuous = is_continuous
         self._times: Times = array("q")
-        self._columns: tuple[Values, ...] = tuple(array("d") for _ in range(count))
+        self._count = count
+        self._values: Values = array("d")  # row by row
         self._last: tuple[float, ...] | None = None
         self._held: tuple[int, tuple[float, ...]] | None = None
 
@@ -78,19 +79,17 @@ class _Samples:
 
     def rows(self) -> tuple[Times, tuple[Values, ...]]:
         """Return copies of the times and of the columns up to now, including the held row."""
-        count = min(len(self._times), *map(len, self._columns))  # without one that Ctrl-C interrupted
-        times, columns = self._times[:count], tuple(column[:count] for column in self._columns)
+        rows = len(self._values) // self._count  # without one that Ctrl-C interrupted
+        times, values = self._times[:rows], self._values[: rows * self._count]
         if self._held is not None:
             times.append(self._held[0])
-            for column, value in zip(columns, self._held[1], strict=True):
-                column.append(value)
-        return times, columns
+            values.extend(self._held[1])
+        return times, tuple(values[place :: self._count] for place in range(self._count))
 
     def _append(self, time_ps: int, values: tuple[float, ...]) -> None:
         self._held = None
         self._times.append(time_ps)
-        for column, value in zip(self._columns, values, strict=True):
-            column.append(value)
+        self._values.extend(values)
         self._last = values
 
 

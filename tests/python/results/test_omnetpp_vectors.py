@@ -37,9 +37,9 @@ def test_each_vector_with_its_statistics(rows):
     ]
 
 
-def test_rows_by_time_whatever_vector_they_are_of(rows):
+def test_rows_vector_by_vector_in_the_order_of_time(rows):
     found = rows([HEARD, SENT], "SELECT vectorId, eventNumber, simtimeRaw, value FROM vectorData")
-    assert found == [(1, 0, 1, 5.0), (2, 0, 2, 1.0), (1, 0, 3, 6.0), (1, 0, 3, 8.0), (2, 0, 3, None)]
+    assert found == [(1, 0, 1, 5.0), (1, 0, 3, 6.0), (1, 0, 3, 8.0), (2, 0, 2, 1.0), (2, 0, 3, None)]
 
 
 def test_times_beyond_what_floats_tell_apart(rows):
