@@ -29,7 +29,7 @@ from gradysim.protocol.messages.communication import CommunicationCommand
 from gradysim.protocol.messages.mobility import MobilityCommand
 from gradysim.protocol.messages.telemetry import Telemetry
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.parameters import parametrize
+from gradysim.scenario.schema.parameters import parametrize
 
 CONFIG = Path(__file__).resolve().parents[2] / "configs" / "zigzag.ini"
 Call = tuple[int, str, float, Any]  # node, method, simulated time in seconds, argument

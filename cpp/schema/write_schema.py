@@ -16,7 +16,7 @@ from typing import Any
 CPP = Path(__file__).parents[1]
 PROGRAM = CPP.parent / "build" / "schema" / "netsim_schema"
 PACKAGE = CPP.parent / "python" / "gradysim"
-SCHEMA = PACKAGE / "scenario" / "schema.json"
+SCHEMA = PACKAGE / "scenario" / "schema" / "schema.json"
 STUB = PACKAGE / "_netsim_fields.pyi"
 
 FIXED_TYPES = ("medium", "interface")

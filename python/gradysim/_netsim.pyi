@@ -34,7 +34,7 @@ class SimulationError(RuntimeError):
     """A command that cannot be carried out: a timer in the past, an unknown destination."""
 
 def schema() -> list[dict[str, Any]]:
-    """The declarations of all fields, as in scenario/schema.json."""
+    """The declarations of all fields, as in scenario/schema/schema.json."""
 
 longest_run_s: float
 """The largest time that a run can reach, in seconds."""

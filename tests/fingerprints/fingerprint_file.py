@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
 
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = Path(__file__).with_name("fingerprints.csv")

@@ -8,9 +8,9 @@ import gradysim.integrated.run
 from gradysim import _netsim
 from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.native_protocols import native_protocol
 from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.protocol_modules import origin_of
+from gradysim.scenario.schema.native_protocols import native_protocol
+from gradysim.scenario.schema.protocol_modules import origin_of
 
 _ROOT = Path(__file__).parents[2]
 FOLDER = _ROOT / "configs" / "reference"

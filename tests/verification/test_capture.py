@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
 from verification.finding import Finding
 from verification.reference_data import Row, rows
 from verification.reference_run import FOLDER, run_reference, tracked

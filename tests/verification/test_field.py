@@ -20,7 +20,7 @@ from gradysim.motion.position_error import POSITION_ERROR_TIME_S, position_error
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.prototype.simulation import airframe_of
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.ini import PROFILES
+from gradysim.scenario.parse.ini import PROFILES
 from verification.finding import AGREES, DIFFERS, FITTED, SHOWN, FieldRow
 
 Report = Callable[[FieldRow], None]

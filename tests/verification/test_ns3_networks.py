@@ -6,8 +6,8 @@ from statistics import fmean
 
 import pytest
 
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
 from verification.finding import Finding
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference, run_reference

@@ -5,15 +5,15 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from gradysim.scenario.expressions import ParameterContext, parse_value
-from gradysim.scenario.functions import Value
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.options import is_option
-from gradysim.scenario.patterns import compile_pattern
-from gradysim.scenario.runs import numbered_runs
-from gradysim.scenario.sections import entries_in_order, search_order
-from gradysim.scenario.sweep import name_iterations, run_variables, substitute, text_of_iterations
-from gradysim.scenario.units import Quantity
+from gradysim.scenario.parse.expressions import ParameterContext, parse_value
+from gradysim.scenario.parse.functions import Value
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.patterns import compile_pattern
+from gradysim.scenario.parse.sections import entries_in_order, search_order
+from gradysim.scenario.parse.units import Quantity
+from gradysim.scenario.resolve.runs import numbered_runs
+from gradysim.scenario.resolve.sweep import name_iterations, run_variables, substitute, text_of_iterations
+from gradysim.scenario.schema.options import is_option
 from verification.finding import Finding
 from verification.reference_data import rows
 

@@ -10,9 +10,9 @@ import gradysim.prototype.run
 from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.native_protocols import NativeProtocol
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
+from gradysim.scenario.schema.native_protocols import NativeProtocol
 from verification.reference_data import rows
 from verification.reference_run import FOLDER, load_reference
 

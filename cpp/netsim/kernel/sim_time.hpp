@@ -14,7 +14,7 @@ namespace netsim {
 class SimTime {
 public:
     // The end of the longest run. The range of int64 ends at 9.223e6 s, after the end of any frame
-    // that begins within a run. `sim-time-limit` in python/gradysim/scenario/schema.py has the same
+    // that begins within a run. `sim-time-limit` in python/gradysim/scenario/schema/engine_keys.py has the same
     // bound.
     static constexpr double longest_run_s = 9.2e6;
 

@@ -5,7 +5,7 @@
 //   CircleMobility: a regular polygon in the circle, whose sides are at most 1 cm inside of it.
 //   RectangleMobility: along the border of the area in x and y, from the smallest x to the largest.
 //
-// Names and directions are INET's. python/gradysim/scenario/paths.py has the same paths for
+// Names and directions are INET's. python/gradysim/scenario/build/paths.py has the same paths for
 // prototype mode.
 #pragma once
 

@@ -16,10 +16,10 @@ from gradysim.integrated.calibration import Calibration, calibrate, pair_of
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.integrated.fitted_path_loss import fit_path_loss, read_measurements
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.parameter_types import quantity, whole_bytes
+from gradysim.scenario.parse.units import db_from_ratio, dbm_from_w
+from gradysim.scenario.resolve.sweep import text_of_iterations
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.sweep import text_of_iterations
-from gradysim.scenario.units import db_from_ratio, dbm_from_w
+from gradysim.scenario.schema.parameter_types import quantity, whole_bytes
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

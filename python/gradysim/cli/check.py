@@ -13,9 +13,9 @@ from gradysim.cli.options import FileArgument, Mode, SetOption
 from gradysim.cli.runs import check, findings_of
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.scenario.errors import ConfigError, ConfigErrors, ErrorCollector
-from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import Finding
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
 
 ConfigsOption = Annotated[
     str | None,

@@ -24,7 +24,7 @@ from gradysim.results.omnetpp_reader import recorded_modules
 from gradysim.results.result_dir import result_names
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.load import Study
-from gradysim.scenario.runs import text_of_files, text_of_runs
+from gradysim.scenario.resolve.runs import text_of_files, text_of_runs
 from gradysim.scenario.scenario import Scenario
 
 

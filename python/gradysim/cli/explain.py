@@ -13,7 +13,7 @@ from gradysim.cli.options import ConfigOption, FileArgument, Integer, SetOption
 from gradysim.cli.runs import check
 from gradysim.scenario.errors import ConfigError, Source
 from gradysim.scenario.explain import Explanation, explain
-from gradysim.scenario.keys import KEYS_BY_TARGET
+from gradysim.scenario.schema.keys import KEYS_BY_TARGET
 
 _PARAMETER = "Path of a parameter, such as `uavs[3].mobility.speed`, or an option."
 _WIDTH = 10

@@ -12,7 +12,7 @@ from rich.text import Text
 from gradysim.cli.docs import with_commands, with_links
 from gradysim.cli.errors import MISTAKE, OK
 from gradysim.scenario.key_list import KeySection, key_meant, key_sections, matching
-from gradysim.scenario.native_protocols import native_protocols
+from gradysim.scenario.schema.native_protocols import native_protocols
 
 _PATTERN = "Part of a key, of its values or of its meaning; or a pattern such as `*.power`."
 

@@ -12,7 +12,7 @@ _LARGEST = 2**62
 def checked_limit(text: str | None) -> int | None:
     """Return a limit in bytes; None for no limit. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors import ConfigError
-    from gradysim.scenario.parameter_types import whole_bytes
+    from gradysim.scenario.schema.parameter_types import whole_bytes
 
     if text is None:
         return None

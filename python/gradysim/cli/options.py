@@ -11,7 +11,7 @@ from cyclopts import Parameter
 if TYPE_CHECKING:
     from cyclopts import Token
 
-    from gradysim.scenario.parameter_types import ParameterType, Scalar
+    from gradysim.scenario.schema.parameter_types import ParameterType, Scalar
 
 Mode = Literal["integrated", "prototype"]
 """Same as in `gradysim.results.result`, which `gradysim --help` does not load."""
@@ -330,7 +330,7 @@ class CampaignOptions:
 def option_value(option: str, text: str, kind: "ParameterType") -> "Scalar":
     """Return the value of an option. Raises ConfigError, which names the option."""
     from gradysim.scenario.errors import BadValue, ConfigError
-    from gradysim.scenario.expressions import parse_value
+    from gradysim.scenario.parse.expressions import parse_value
 
     try:
         return kind.convert(parse_value(text))

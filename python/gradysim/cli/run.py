@@ -39,8 +39,8 @@ from gradysim.execution.run_lock import remove_left_over_files, remove_lock_file
 from gradysim.integrated.compiled_part import CompiledPartMissingError
 from gradysim.scenario.errors import ConfigError, ErrorCollector
 from gradysim.scenario.load import Study
-from gradysim.scenario.parameter_types import quantity
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.parameter_types import quantity
 
 DEFAULTS = RunOptions()
 

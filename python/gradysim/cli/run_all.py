@@ -8,7 +8,7 @@ from itertools import chain
 
 from gradysim.cli.errors import INCOMPLETE, INTERRUPTED, LOCKED, MISTAKE, OK, OVER_MEMORY, abandon_output
 from gradysim.cli.executor import Row, RunExecutor, WorkersLostError
-from gradysim.scenario.runs import text_of_runs
+from gradysim.scenario.resolve.runs import text_of_runs
 
 _SHOW_CURSOR = "\r\x1b[?25h"
 """A progress bar hides the cursor, and a dead worker does not show it again."""

@@ -26,8 +26,8 @@ from gradysim.execution.run_lock import RunLockedError, run_locked
 from gradysim.integrated.compiled_part import CompiledPartMissingError, load_netsim
 from gradysim.results.files import run_file
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.runs import text_of_runs
-from gradysim.scenario.sweep import text_of_iterations
+from gradysim.scenario.resolve.runs import text_of_runs
+from gradysim.scenario.resolve.sweep import text_of_iterations
 
 if TYPE_CHECKING:
     from rich.console import Console

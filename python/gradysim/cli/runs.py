@@ -9,11 +9,11 @@ from gradysim.cli.errors import OK, report_error
 from gradysim.cli.options import ConfigOption, FileArgument, SetOption
 from gradysim.integrated.ranges import lint_ranges
 from gradysim.scenario.errors import ArgumentNames, ConfigError
-from gradysim.scenario.ini import Entry, read_overrides
 from gradysim.scenario.lint import Finding, by_line, lint, unread_variables
 from gradysim.scenario.load import Study, runs_of
+from gradysim.scenario.parse.ini import Entry, read_overrides
+from gradysim.scenario.resolve.sweep import text_of_iterations
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.sweep import text_of_iterations
 
 
 def list_runs(file: FileArgument, /, *, config: ConfigOption = "General", settings: SetOption = ()) -> int:

@@ -13,7 +13,7 @@ from gradysim.cli.options import DEFAULT_DIR, FileArgument, ResultDir, RunOption
 from gradysim.cli.runs import check
 from gradysim.cli.study import check_directory
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.runs import text_of_files, text_of_runs
+from gradysim.scenario.resolve.runs import text_of_files, text_of_runs
 
 DEFAULTS = StatusOptions()
 

@@ -15,7 +15,7 @@ from gradysim.results.delays import Delays
 from gradysim.results.outcomes import LEDGERS, Counts, outcome_ratios
 from gradysim.results.quantity import quantities
 from gradysim.results.result import NodeResult, RunResult
-from gradysim.scenario.sweep import text_of_iterations
+from gradysim.scenario.resolve.sweep import text_of_iterations
 
 MAX_VALUE_LENGTH = 200
 """Characters shown of one tracked variable; the JSON object is complete."""

@@ -12,7 +12,7 @@ from gradysim.results.files import read_run_file, run_file
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import ConfigError, unknown_name
 from gradysim.scenario.load import Study
-from gradysim.scenario.sweep import text_of_iterations
+from gradysim.scenario.resolve.sweep import text_of_iterations
 
 BATCH = 5
 """Number of repetitions after which it is decided whether they are enough."""

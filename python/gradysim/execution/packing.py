@@ -31,7 +31,7 @@ from gradysim.results.pack import (
 )
 from gradysim.results.result_dir import loose_files, result_of
 from gradysim.results.run_summary import RunSummary
-from gradysim.scenario.sweep import text_of_iterations
+from gradysim.scenario.resolve.sweep import text_of_iterations
 
 if TYPE_CHECKING:
     import sqlite3

@@ -20,8 +20,8 @@ from gradysim.results.recorder import recorders_of
 from gradysim.results.result import Mode, NodeResult, RunResult
 from gradysim.scenario.errors import did_you_mean
 from gradysim.scenario.lint import Finding, RunLint
-from gradysim.scenario.protocol_modules import siblings_importable
 from gradysim.scenario.scenario import Scenario, require_scenario
+from gradysim.scenario.schema.protocol_modules import siblings_importable
 
 CHUNK_S = 0.05
 """Wall time that a chunk should take, in seconds."""

@@ -14,9 +14,9 @@ from gradysim.integrated.network import medium_config, node_config, node_setting
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import ConfigError, nearest
-from gradysim.scenario.keys import CENTER_FREQUENCY
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import CENTER_FREQUENCY
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.scenario.errors import ConfigError, is_fully_qualified, nearest_file
-from gradysim.scenario.keys import KEYS_BY_TARGET, NETWORK_KEYS, NODE_KEYS, written_for
-from gradysim.scenario.schema import HAS_TO_BE_GIVEN, Key
-from gradysim.scenario.units import UNITS
-from gradysim.scenario.values import Setting
+from gradysim.scenario.parse.units import UNITS
+from gradysim.scenario.schema.engine_keys import HAS_TO_BE_GIVEN, Key
+from gradysim.scenario.schema.keys import KEYS_BY_TARGET, NETWORK_KEYS, NODE_KEYS, written_for
+from gradysim.scenario.schema.values import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim

@@ -26,9 +26,9 @@ from gradysim.integrated.power_for_range import MESSAGE_BYTES
 from gradysim.results.durable import bytes_in
 from gradysim.scenario.errors import BadValue, ConfigError
 from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.regular_files import check_regular
+from gradysim.scenario.parse.regular_files import check_regular
+from gradysim.scenario.parse.units import db_from_ratio, dbm_from_w
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.units import db_from_ratio, dbm_from_w
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any, cast
 
 from gradysim.integrated.engine_errors import errors_at, settings_by_target
 from gradysim.protocol.interface import IProvider
-from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.parameters import parametrize
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.native_protocols import NativeProtocol
+from gradysim.scenario.schema.parameters import parametrize
+from gradysim.scenario.schema.values import Setting
 
 if TYPE_CHECKING:
     from gradysim import _netsim

@@ -15,11 +15,11 @@ from gradysim.integrated.engine_errors import errors_at, settings_by_target, tex
 from gradysim.integrated.native_protocols import is_native, set_native_protocol
 from gradysim.integrated.power_for_range import PowersForRanges
 from gradysim.scenario.errors import ConfigError, ErrorCollector
-from gradysim.scenario.keys import DEFAULT_INTERFACE
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
-from gradysim.scenario.obstacles import ObstacleSpec
+from gradysim.scenario.obstacle_spec import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.keys import DEFAULT_INTERFACE
+from gradysim.scenario.schema.values import Setting
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig, Network, Node, NodeConfig, ObstacleConfig

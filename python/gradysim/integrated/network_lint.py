@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING, NamedTuple
 from gradysim.integrated.network import by_kind, medium_config, node_config, one_of_each_kind
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import Source
-from gradysim.scenario.ini import PROFILES
-from gradysim.scenario.keys import (
+from gradysim.scenario.lint import Finding, by_line
+from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
+from gradysim.scenario.parse.ini import PROFILES
+from gradysim.scenario.resolve.models import Chosen, Models, unmet_choice
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.engine_keys import ReadBy
+from gradysim.scenario.schema.keys import (
     IEEE802154,
     KEYS_BY_TARGET,
     NETWORK_KEYS,
     has_radios,
     written_for,
 )
-from gradysim.scenario.lint import Finding, by_line
-from gradysim.scenario.models import Chosen, Models, unmet_choice
-from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
-from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.schema import ReadBy
-from gradysim.scenario.values import SettingReader
+from gradysim.scenario.schema.values import SettingReader
 
 if TYPE_CHECKING:
     from gradysim._netsim import InterfaceConfig, MediumConfig, RadioConfig

@@ -7,8 +7,8 @@ from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.engine_errors import text_of
 from gradysim.integrated.two_ray_ground import ground_hint
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.keys import DEFAULT_INTERFACE, has_radios
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
+from gradysim.scenario.schema.keys import DEFAULT_INTERFACE, has_radios
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget, MediumConfig, NodeConfig

@@ -10,10 +10,10 @@ from gradysim.integrated.compiled_part import CompiledPartMissingError, load_net
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, PowersForRanges, range_of
 from gradysim.replay.description import FarLoss
-from gradysim.scenario.keys import PATH_LOSS_EFFECTS, has_radios
 from gradysim.scenario.lint import Finding, by_line
 from gradysim.scenario.ranges import are_alike, ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import PATH_LOSS_EFFECTS, has_radios
 
 if TYPE_CHECKING:
     from gradysim._netsim import LinkBudget, RadioConfig

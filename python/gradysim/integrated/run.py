@@ -34,9 +34,9 @@ from gradysim.results.files import run_name
 from gradysim.results.outcomes import Counts
 from gradysim.results.recorder import checked_ids
 from gradysim.results.result import RunResult
-from gradysim.scenario.parameters import parametrize
 from gradysim.scenario.ranges import mean_range_m
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.parameters import parametrize
 from gradysim.simulator.handler.interface import INodeHandler
 from gradysim.simulator.real_time import real_time_factor
 

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from gradysim.scenario.keys import PATH_LOSS_EFFECTS, has_radios
 from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.schema.keys import PATH_LOSS_EFFECTS, has_radios
 
 if TYPE_CHECKING:
     from gradysim._netsim import MediumConfig

@@ -19,8 +19,8 @@ from gradysim.ladder.reach import power_settings, range_settings
 from gradysim.replay.sink import ReplayWriter
 from gradysim.results.run_summary import RunSummary
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, unknown_name
-from gradysim.scenario.ini import read_ini
 from gradysim.scenario.load import Study
+from gradysim.scenario.parse.ini import read_ini
 from gradysim.scenario.scenario import Scenario
 from gradysim.stepping import start
 

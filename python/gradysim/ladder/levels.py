@@ -13,11 +13,11 @@ from dataclasses import dataclass, field, replace
 from itertools import groupby
 from typing import Any
 
-from gradysim.scenario.ini import Section
-from gradysim.scenario.keys import MASSLESS, PATH_LOSS_EFFECTS, QUADCOPTER
 from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.parse.ini import Section
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.keys import MASSLESS, PATH_LOSS_EFFECTS, QUADCOPTER
+from gradysim.scenario.schema.values import Setting
 
 UNIT_DISK = "UnitDiskRadioMedium"
 _UNLIMITED = "1e9m"

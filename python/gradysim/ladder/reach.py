@@ -11,9 +11,9 @@ from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.network import medium_config, node_config, node_errors_at
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, PowersForRanges, range_of
 from gradysim.results.tracked_variables import group_of
-from gradysim.scenario.keys import has_radios
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import has_radios
 
 
 def power_settings(scenario: Scenario) -> list[str]:

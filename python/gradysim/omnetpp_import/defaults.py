@@ -17,10 +17,10 @@ from gradysim.omnetpp_import.tables import (
     VALUES,
 )
 from gradysim.scenario.errors import BadValue, Source
-from gradysim.scenario.functions import is_quoted, unquoted
-from gradysim.scenario.ini import Entry
-from gradysim.scenario.keys import CIRCLE, PROTOCOL_CLASS, PROTOCOL_KEYS, RECTANGLE, engine_key
-from gradysim.scenario.patterns import PatternIndex, compile_pattern
+from gradysim.scenario.parse.functions import is_quoted, unquoted
+from gradysim.scenario.parse.ini import Entry
+from gradysim.scenario.parse.patterns import PatternIndex, compile_pattern
+from gradysim.scenario.schema.keys import CIRCLE, PROTOCOL_CLASS, PROTOCOL_KEYS, RECTANGLE, engine_key
 
 _MEDIA = engine_key("medium.typename").kind.names
 

@@ -28,9 +28,11 @@ from gradysim.omnetpp_import.tables import (
 from gradysim.omnetpp_import.values import wrong_value
 from gradysim.protocol.defaults import MOST_INTERFACES
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.keys import MOBILITY_KEYS, NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN
-from gradysim.scenario.options import (
+from gradysim.scenario.parse.ini import Entry, Section
+from gradysim.scenario.parse.patterns import Pattern, compile_pattern
+from gradysim.scenario.schema.engine_keys import Key
+from gradysim.scenario.schema.keys import MOBILITY_KEYS, NETWORK_KEYS, NETWORK_MODULES, NODE_KEYS, WLAN
+from gradysim.scenario.schema.options import (
     NETWORK,
     OPTIONS,
     REFUSED_OPTIONS,
@@ -38,8 +40,6 @@ from gradysim.scenario.options import (
     is_ignored,
     is_option,
 )
-from gradysim.scenario.patterns import Pattern, compile_pattern
-from gradysim.scenario.schema import Key
 
 
 class LineTranslator:

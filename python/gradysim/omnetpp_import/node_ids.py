@@ -7,10 +7,10 @@ from dataclasses import replace
 from gradysim.omnetpp_import.defaults import translated_lines
 from gradysim.omnetpp_import.outcome import Action, Outcome, not_modelled
 from gradysim.scenario.errors import ErrorCollector
-from gradysim.scenario.groups import find_groups
-from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.lines import Lines
-from gradysim.scenario.values import SettingReader
+from gradysim.scenario.parse.ini import Entry, Section
+from gradysim.scenario.resolve.groups import find_groups
+from gradysim.scenario.resolve.lines import Lines
+from gradysim.scenario.schema.values import SettingReader
 
 _DESTINATIONS, _HEARS = ".protocol.destinations", ".protocol.hears"
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import Enum
 
-from gradysim.scenario.ini import Entry
+from gradysim.scenario.parse.ini import Entry
 
 
 class Action(Enum):

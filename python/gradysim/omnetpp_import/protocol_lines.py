@@ -23,10 +23,10 @@ from gradysim.omnetpp_import.tables import (
 from gradysim.omnetpp_import.values import wrong_value
 from gradysim.protocol.interface import IProtocol
 from gradysim.protocol.position import Position
-from gradysim.scenario.distributions import distribution_in
-from gradysim.scenario.functions import is_quoted, unquoted
-from gradysim.scenario.ini import Entry
-from gradysim.scenario.parameters import parameters_of
+from gradysim.scenario.parse.distributions import distribution_in
+from gradysim.scenario.parse.functions import is_quoted, unquoted
+from gradysim.scenario.parse.ini import Entry
+from gradysim.scenario.schema.parameters import parameters_of
 
 _STRING = re.compile(r'"[^"]*"')
 _NAMED_VALUES = re.compile(r"\$\{\s*(\w+)\s*=(?!=)", re.ASCII)

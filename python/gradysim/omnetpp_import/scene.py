@@ -9,9 +9,9 @@ from itertools import chain
 
 from gradysim.protocol.position import Position, geo_to_cartesian
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.parameter_types import number_in
+from gradysim.scenario.parse.expressions import parse_value
+from gradysim.scenario.parse.ini import Entry, Section
+from gradysim.scenario.schema.parameter_types import number_in
 
 PART = re.compile(r"(?:\[[^\]]*\]|\{[^}]*\}|[^.\[{])+")
 """A part of a key; ranges in brackets have dots of their own."""

@@ -1,7 +1,7 @@
 """What lines of OMNeT++ become here: renamed keys and values, and the reasons for those left out.
 
-Paths are below a node or below the network, as in `gradysim.scenario.keys`. The facts are those of the NED
-files of INET 4.5 and of GrADyS' C++ project.
+Paths are below a node or below the network, as in `gradysim.scenario.schema.keys`. The facts are those of
+the NED files of INET 4.5 and of GrADyS' C++ project.
 """
 
 import re

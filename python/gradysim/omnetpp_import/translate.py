@@ -14,10 +14,10 @@ from gradysim.omnetpp_import.ned import NedNetwork, read_networks
 from gradysim.omnetpp_import.node_ids import name_by_ids
 from gradysim.omnetpp_import.outcome import Action, Outcome
 from gradysim.omnetpp_import.tables import CLASS_TO_WRITE
-from gradysim.scenario.ini import GENERAL, Entry, IniFile, read_ini
-from gradysim.scenario.options import NETWORK
-from gradysim.scenario.sections import config_names, search_order
-from gradysim.scenario.sweep import PREDEFINED
+from gradysim.scenario.parse.ini import GENERAL, Entry, IniFile, read_ini
+from gradysim.scenario.parse.sections import config_names, search_order
+from gradysim.scenario.resolve.sweep import PREDEFINED
+from gradysim.scenario.schema.options import NETWORK
 
 _DEFINED = re.compile(r"\$\{\s*([A-Za-z_]\w*)\s*=(?!=)", re.ASCII)
 _USED = re.compile(r"\$\{\s*([A-Za-z_]\w*)\s*\}|!\s*([A-Za-z_]\w*)\s*\}", re.ASCII)

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.expressions import ParameterContext
-from gradysim.scenario.ini import Entry
-from gradysim.scenario.parameter_types import ParameterType
-from gradysim.scenario.sweep import name_iterations
-from gradysim.scenario.values import read_scalar
+from gradysim.scenario.parse.expressions import ParameterContext
+from gradysim.scenario.parse.ini import Entry
+from gradysim.scenario.resolve.sweep import name_iterations
+from gradysim.scenario.schema.parameter_types import ParameterType
+from gradysim.scenario.schema.values import read_scalar
 
 
 def wrong_value(entry: Entry, key: str, text: str, kinds: Mapping[str, ParameterType]) -> str:

@@ -12,8 +12,8 @@ from gradysim.results.result import RunResult
 from gradysim.results.run_summary import RunSummary
 from gradysim.results.run_table import Runs
 from gradysim.scenario.errors import BadValue, ConfigError, unknown_name
-from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.units import UNITS, Quantity
+from gradysim.scenario.parse.expressions import parse_value
+from gradysim.scenario.parse.units import UNITS, Quantity
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

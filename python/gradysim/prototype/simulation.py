@@ -14,14 +14,14 @@ from gradysim.protocol.interface import IProvider
 from gradysim.prototype.replay import PrototypeRecorder, precede
 from gradysim.results.files import run_name
 from gradysim.results.recorder import NodeRecorder
+from gradysim.scenario.build.paths import path_of
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.keys import MASSLESS, QUADCOPTER, STATIONARY
-from gradysim.scenario.native_protocols import NativeProtocol, text_of_only_integrated
 from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.parameters import parametrize
-from gradysim.scenario.paths import path_of
 from gradysim.scenario.ranges import ranges_of_prototype_m
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import MASSLESS, QUADCOPTER, STATIONARY
+from gradysim.scenario.schema.native_protocols import NativeProtocol, text_of_only_integrated
+from gradysim.scenario.schema.parameters import parametrize
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium, DeliveryLedger
 from gradysim.simulator.handler.computer import ComputerHandler, ProcessingTime
 from gradysim.simulator.handler.interface import INodeHandler

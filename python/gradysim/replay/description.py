@@ -6,7 +6,7 @@ from typing import Any
 
 from gradysim.replay.sink import ReplaySink
 from gradysim.replay.tables import EVENT_KINDS, FRAME_KINDS, OUTCOMES
-from gradysim.scenario.obstacles import ObstacleSpec
+from gradysim.scenario.obstacle_spec import ObstacleSpec
 from gradysim.scenario.scenario import Scenario
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.regular_files import check_regular
+from gradysim.scenario.parse.regular_files import check_regular
 
 LONGEST_PID = 2**22
 """On Linux."""

@@ -12,7 +12,7 @@ from typing import Any, get_args
 from gradysim.results.durable import bytes_in, replacing
 from gradysim.results.pack import packed_bytes
 from gradysim.results.result import Mode, RunResult, plain_iterations
-from gradysim.scenario.runs import HASH_DIGITS, hash_of
+from gradysim.scenario.resolve.runs import HASH_DIGITS, hash_of
 from gradysim.scenario.scenario import Scenario
 
 CHECKSUM = "checksum"

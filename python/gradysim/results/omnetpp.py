@@ -16,8 +16,8 @@ from gradysim.results.durable import replacing
 from gradysim.results.quantity import Scalar
 from gradysim.results.recorder import Values, Vector
 from gradysim.results.result import Mode, RunResult
+from gradysim.scenario.resolve.sweep import PREDEFINED
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.sweep import PREDEFINED
 
 if TYPE_CHECKING:
     import sqlite3

@@ -27,7 +27,7 @@ from gradysim.results.quantity import Quantity, Scalar, json_object, recorded, s
 from gradysim.results.recorder import Vector
 from gradysim.results.result_hash import OF_RUN, result_hash
 from gradysim.results.tracked_variables import tracked_scalars
-from gradysim.scenario.functions import is_quoted, unquoted
+from gradysim.scenario.parse.functions import is_quoted, unquoted
 
 Mode = Literal["integrated", "prototype"]
 

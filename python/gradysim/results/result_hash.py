@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from gradysim.scenario.runs import HASH_DIGITS
+from gradysim.scenario.resolve.runs import HASH_DIGITS
 
 OF_RUN = ("sim_time_s", "fingerprint", "outcomes", "message_delays", "nodes")
 OF_NODE = ("name", "position", "tracked_variables", "frames_by_bitrate")

@@ -16,7 +16,7 @@ from gradysim.results.omnetpp_reader import check_structure as check_database
 from gradysim.results.pack import packed_texts, packs_of
 from gradysim.results.result_dir import loose_files, result_of
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.runs import hash_of
+from gradysim.scenario.resolve.runs import hash_of
 
 _CAPTURE = re.compile(r".+-#\d+-.+\.pcap")
 _CAPTURE_HEADER = struct.Struct("<I20x")

@@ -4,8 +4,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from gradysim.scenario.errors import ConfigError, Source, nearest
-from gradysim.scenario.functions import text_of
-from gradysim.scenario.keys import (
+from gradysim.scenario.lint import INSTEAD_WITH_POWERS, keys_instead
+from gradysim.scenario.parse.functions import text_of
+from gradysim.scenario.resolve.lines import Line, Row, Rows
+from gradysim.scenario.resolve.models import Models, unmet_choice
+from gradysim.scenario.resolve.resolution import Resolution, network_schemas, node_schema, protocol_schema
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.engine_keys import Key, ReadBy
+from gradysim.scenario.schema.keys import (
     BAND_NAME,
     CHANNEL_NUMBER,
     GROUP_SIZE,
@@ -15,15 +21,9 @@ from gradysim.scenario.keys import (
     PROTOCOL_KEYS,
     index_of_interface,
 )
-from gradysim.scenario.lines import Line, Row, Rows
-from gradysim.scenario.lint import INSTEAD_WITH_POWERS, keys_instead
-from gradysim.scenario.models import Models, unmet_choice
-from gradysim.scenario.native_protocols import NativeProtocol
-from gradysim.scenario.options import OPTION_KEYS
-from gradysim.scenario.resolution import Resolution, network_schemas, node_schema, protocol_schema
-from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.schema import Key, ReadBy
-from gradysim.scenario.values import SettingReader
+from gradysim.scenario.schema.native_protocols import NativeProtocol
+from gradysim.scenario.schema.options import OPTION_KEYS
+from gradysim.scenario.schema.values import SettingReader
 
 
 @dataclass(frozen=True)

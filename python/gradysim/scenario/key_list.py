@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 
 from gradysim.scenario.errors import nearest
-from gradysim.scenario.keys import (
+from gradysim.scenario.schema.engine_keys import Key
+from gradysim.scenario.schema.keys import (
     GROUP_SIZE,
     GROUP_SIZE_OF_NODES,
     NETWORK_KEYS,
@@ -15,10 +16,9 @@ from gradysim.scenario.keys import (
     PROTOCOL_KEYS,
     PROTOCOL_PARAMETER,
 )
-from gradysim.scenario.native_protocols import NativeProtocol
-from gradysim.scenario.options import OPTION_KEYS
-from gradysim.scenario.parameters import parameters_of
-from gradysim.scenario.schema import Key
+from gradysim.scenario.schema.native_protocols import NativeProtocol
+from gradysim.scenario.schema.options import OPTION_KEYS
+from gradysim.scenario.schema.parameters import parameters_of
 
 _INDEX = re.compile(r"\[(?:\d+|\d*\.\.\d*)\]", re.ASCII)
 

@@ -8,22 +8,22 @@ from pathlib import Path
 
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import BadValue, Source
-from gradysim.scenario.expressions import ParameterContext, differs_between_parameters, parse_value
-from gradysim.scenario.ini import Entry, Section
-from gradysim.scenario.keys import (
+from gradysim.scenario.node_spec import NodeSpec
+from gradysim.scenario.parse.expressions import ParameterContext, differs_between_parameters, parse_value
+from gradysim.scenario.parse.ini import Entry, Section
+from gradysim.scenario.parse.patterns import Pattern, PatternIndex, compile_pattern
+from gradysim.scenario.parse.units import Dimension, Quantity
+from gradysim.scenario.resolve.runs import UnreadVariables
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import (
     BAND_BESIDE_FREQUENCY,
     BAND_OF_CHANNEL,
     CENTER_FREQUENCY,
     STATIONARY,
     has_radios,
 )
-from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.options import is_ignored, is_option
-from gradysim.scenario.parameters import annotations_of, unit_of
-from gradysim.scenario.patterns import Pattern, PatternIndex, compile_pattern
-from gradysim.scenario.runs import UnreadVariables
-from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.units import Dimension, Quantity
+from gradysim.scenario.schema.options import is_ignored, is_option
+from gradysim.scenario.schema.parameters import annotations_of, unit_of
 
 
 @dataclass(frozen=True)

@@ -6,20 +6,17 @@ from pathlib import Path
 from typing import Any, overload
 
 from gradysim.notebook import html_table
-from gradysim.scenario.coverage import Coverage
+from gradysim.scenario.build.coverage import Coverage
+from gradysim.scenario.build.networks import Networks
 from gradysim.scenario.errors import OF_SCRIPT, ArgumentNames, ConfigError, ErrorCollector
-from gradysim.scenario.ini import Entry, read_ini, read_overrides
-from gradysim.scenario.networks import Networks
-from gradysim.scenario.options import (
-    OPTIONS,
-    check_option,
-    is_ignored,
-    is_option,
-    network_name,
-    options_in_force,
+from gradysim.scenario.parse.ini import Entry, read_ini, read_overrides
+from gradysim.scenario.parse.sections import (
+    check_not_abstract,
+    entries_in_order,
+    search_order,
+    what_to_run_instead,
 )
-from gradysim.scenario.parameter_types import Scalar
-from gradysim.scenario.runs import (
+from gradysim.scenario.resolve.runs import (
     NumberedRun,
     UnreadVariables,
     check_seeds_of_runs,
@@ -29,9 +26,7 @@ from gradysim.scenario.runs import (
     settings_hash,
     whole_seed,
 )
-from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.sections import check_not_abstract, entries_in_order, search_order, what_to_run_instead
-from gradysim.scenario.sweep import (
+from gradysim.scenario.resolve.sweep import (
     REPETITION,
     depends_on_run,
     free_text,
@@ -44,8 +39,18 @@ from gradysim.scenario.sweep import (
     variables_in,
     with_labels,
 )
-from gradysim.scenario.unknown_keys import NoSuchNodeError
-from gradysim.scenario.values import read_scalar
+from gradysim.scenario.resolve.unknown_keys import NoSuchNodeError
+from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.options import (
+    OPTIONS,
+    check_option,
+    is_ignored,
+    is_option,
+    network_name,
+    options_in_force,
+)
+from gradysim.scenario.schema.parameter_types import Scalar
+from gradysim.scenario.schema.values import read_scalar
 
 _READ_IN_EACH_RUN = ("sim-time-limit", "vector-record-interval", "description")
 """Options that are fields of a Scenario."""

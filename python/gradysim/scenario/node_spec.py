@@ -14,10 +14,10 @@ from gradysim.protocol.defaults import (
 )
 from gradysim.protocol.interface import IProtocol
 from gradysim.scenario.errors import ConfigError, Source, did_you_mean
-from gradysim.scenario.keys import ARDUPILOT, QUADCOPTER
-from gradysim.scenario.parameters import can_be_set, parameters_of
-from gradysim.scenario.protocol_modules import Origin, origin_of
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.keys import ARDUPILOT, QUADCOPTER
+from gradysim.scenario.schema.parameters import can_be_set, parameters_of
+from gradysim.scenario.schema.protocol_modules import Origin, origin_of
+from gradysim.scenario.schema.values import Setting
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ import math
 from statistics import mean
 
 from gradysim.protocol.defaults import TRANSMISSION_RANGE_M
-from gradysim.scenario.keys import has_radios
 from gradysim.scenario.node_spec import NodeSpec
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import has_radios
 
 _ALIKE = 0.1
 """Relative difference up to which two ranges are alike: a power that is rounded gives 50.2 m, not 50 m."""

@@ -9,14 +9,14 @@ from typing import Any
 from gradysim.notebook import html_table
 from gradysim.protocol.checked_values import checked_number
 from gradysim.scenario.errors import ConfigError, Source, nearest
-from gradysim.scenario.ini import Entry, Section
 from gradysim.scenario.node_spec import NodeSpec
-from gradysim.scenario.obstacles import ObstacleSpec
-from gradysim.scenario.options import LONGEST_RUN_S, is_ignored, options_in_force
-from gradysim.scenario.resolution import Resolution
-from gradysim.scenario.runs import UnreadVariables, checked_seed
-from gradysim.scenario.sweep import run_variables, substitute, with_labels
-from gradysim.scenario.values import Setting
+from gradysim.scenario.obstacle_spec import ObstacleSpec
+from gradysim.scenario.parse.ini import Entry, Section
+from gradysim.scenario.resolve.resolution import Resolution
+from gradysim.scenario.resolve.runs import UnreadVariables, checked_seed
+from gradysim.scenario.resolve.sweep import run_variables, substitute, with_labels
+from gradysim.scenario.schema.options import LONGEST_RUN_S, is_ignored, options_in_force
+from gradysim.scenario.schema.values import Setting
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from gradysim.replay.sink import ReplayWriter
 from gradysim.results import Runs, runs
 from gradysim.results.result import Mode, RunResult
 from gradysim.scenario.load import Study
-from gradysim.scenario.runs import text_of_runs
+from gradysim.scenario.resolve.runs import text_of_runs
 from gradysim.scenario.scenario import Scenario, check_node_names, nodes_named
 from gradysim.scripting.progress import progress_bar
 from gradysim.stepping import check_mode, start

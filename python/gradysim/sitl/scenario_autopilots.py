@@ -7,9 +7,9 @@ from gradysim.motion.quadcopter import DRAG_KGPS
 from gradysim.motion.wind import Wind, WindAtVehicle
 from gradysim.protocol.position import Position
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.native_protocols import NativeProtocol
 from gradysim.scenario.node_spec import AutopilotSpec, NodeSpec
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.native_protocols import NativeProtocol
 from gradysim.sitl import SitlError
 from gradysim.sitl.arducopter import find_arducopter
 from gradysim.sitl.autopilot_node import AutopilotNode, check_start, sets_wind, wind_mps

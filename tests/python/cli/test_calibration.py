@@ -14,8 +14,8 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.cli.calibrate import check_picture, draw, text_of_calibration
 from gradysim.integrated.calibration import Calibration
-from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.parameter_types import quantity
+from gradysim.scenario.parse.expressions import parse_value
+from gradysim.scenario.schema.parameter_types import quantity
 
 
 def calibration(interfaces: int = 1, deciding_sensitivity_w: float | None = None) -> Calibration:

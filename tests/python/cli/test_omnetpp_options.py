@@ -7,7 +7,7 @@ import pytest
 
 from gradysim.cli.app import main
 from gradysim.results import read_scalars, read_vectors
-from gradysim.scenario.runs import hash_of
+from gradysim.scenario.resolve.runs import hash_of
 from python.cli.command import both_modes, compiled, disk_of, interrupt_endless_run, objects
 
 PROTOTYPE = ("run", "test.ini", "--mode", "prototype")

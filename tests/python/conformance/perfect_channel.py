@@ -12,7 +12,7 @@ from gradysim.results.result import RunResult
 from gradysim.scenario.errors import Source
 from gradysim.scenario.node_spec import InterfaceSpec, NodeSpec
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.values import Setting
 
 MODES: Mapping[str, Callable[[Scenario], RunResult]] = {
     "integrated": gradysim.integrated.run.run,

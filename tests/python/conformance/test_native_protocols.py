@@ -13,7 +13,7 @@ from gradysim.integrated.native_protocols import is_native
 from gradysim.integrated.run import run
 from gradysim.results.result import RunResult
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.native_protocols import native_protocols
+from gradysim.scenario.schema.native_protocols import native_protocols
 
 ROOT = Path(__file__).parents[3]
 ZIGZAG = "configs/zigzag.ini"

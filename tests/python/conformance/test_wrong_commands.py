@@ -30,7 +30,7 @@ from gradysim.protocol.messages.mobility import (
 )
 from gradysim.protocol.plugin.mission_mobility import MissionMobilityPlugin, MissionMobilityPluginException
 from gradysim.scenario.errors import Source
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.values import Setting
 from python.quiet_protocol import Quiet
 
 CASE = Case([(0.0, 0.0, 0.0), (10.0, 0.0, 0.0)])

@@ -33,7 +33,7 @@ from gradysim.protocol.plugin.mission_mobility import MissionMobilityConfigurati
 from gradysim.protocol.position import Position
 from gradysim.prototype.simulation import configure_mobility
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.parameters import parametrize
+from gradysim.scenario.schema.parameters import parametrize
 from gradysim.simulator.handler.communication import CommunicationHandler, CommunicationMedium
 from gradysim.simulator.handler.mobility import MasslessMobilityConfiguration, MasslessMobilityHandler
 from gradysim.simulator.handler.timer import TimerHandler

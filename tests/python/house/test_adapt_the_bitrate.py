@@ -10,7 +10,7 @@ pytest.importorskip("gradysim._netsim")
 
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.keys import engine_key
+from gradysim.scenario.schema.keys import engine_key
 
 
 @pytest.fixture

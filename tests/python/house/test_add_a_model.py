@@ -13,7 +13,7 @@ import pytest
 
 GUIDE = "docs/contributing/add-a-model.md"
 MODEL = "LogDistancePathLoss"
-SCHEMA = "python/gradysim/scenario/schema.json"
+SCHEMA = "python/gradysim/scenario/schema/schema.json"
 
 CodeBlocks = Callable[[str, str], list[str]]
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.keys import MATERIALS, OBSTACLE_LOSS_KEYS, PATH_LOSS_KEYS, engine_key
 from gradysim.scenario.scenario import Scenario
-from gradysim.scenario.schema import Key
+from gradysim.scenario.schema.engine_keys import Key
+from gradysim.scenario.schema.keys import MATERIALS, OBSTACLE_LOSS_KEYS, PATH_LOSS_KEYS, engine_key
 
 
 def test_its_lines_run(

@@ -13,7 +13,7 @@ import gradysim.integrated.run
 from gradysim.integrated.calibration import calibrate
 from gradysim.integrated.network_lint import lint_networks
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.ini import PROFILES
+from gradysim.scenario.parse.ini import PROFILES
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.ini import PROFILES
+from gradysim.scenario.parse.ini import PROFILES
 
 PAGE = "docs/reference/differences.md"
 

@@ -15,7 +15,7 @@ from gradysim.integrated.network import node_config
 from gradysim.integrated.network_lint import lint_networks
 from gradysim.integrated.ranges import ranges_m
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.ini import PROFILES
+from gradysim.scenario.parse.ini import PROFILES
 from verification.test_field import NOISE_DBM
 
 PAGE = "docs/how-to/model-my-radio.md"

@@ -11,9 +11,9 @@ pytest.importorskip("gradysim._netsim")
 
 import gradysim.integrated.run
 from gradysim.scenario import Scenario, load_scenarios
-from gradysim.scenario.distributions import DISTRIBUTIONS
-from gradysim.scenario.expressions import SELECT_WRITTEN
-from gradysim.scenario.functions import FUNCTIONS, OPERATORS
+from gradysim.scenario.parse.distributions import DISTRIBUTIONS
+from gradysim.scenario.parse.expressions import SELECT_WRITTEN
+from gradysim.scenario.parse.functions import FUNCTIONS, OPERATORS
 
 GUIDE = "docs/reference/values.md"
 EXAMPLE = "docs/reference/example.md"

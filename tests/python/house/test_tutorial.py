@@ -16,7 +16,7 @@ pytest.importorskip("matplotlib")
 
 from gradysim.integrated.calibration import calibrate
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.keys import COMMUNICATION_MEDIUM_KEYS
+from gradysim.scenario.schema.keys import COMMUNICATION_MEDIUM_KEYS
 from python.viewing import visited, watched
 
 ROOT = Path(__file__).parents[3]

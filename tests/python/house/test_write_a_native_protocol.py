@@ -10,7 +10,7 @@ pytest.importorskip("gradysim._netsim", reason="the compiled part is not install
 
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.native_protocols import native_protocols
+from gradysim.scenario.schema.native_protocols import native_protocols
 
 GUIDE = "docs/how-to/write-a-native-protocol.md"
 REST = """

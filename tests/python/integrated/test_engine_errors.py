@@ -7,7 +7,7 @@ from gradysim.integrated.engine_errors import EngineError, errors_at
 from gradysim.integrated.network import check_scenario
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.values import Setting
 
 WLAN = "*.uavs[*].wlan[*]"
 ANTENNA = f"{WLAN}.radio.antenna"

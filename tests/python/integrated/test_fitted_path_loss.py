@@ -23,7 +23,7 @@ from gradysim.integrated.fitted_path_loss import (
 from gradysim.integrated.network import medium_config, node_config
 from gradysim.scenario import Scenario
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.units import db_from_ratio, dbm_from_w
+from gradysim.scenario.parse.units import db_from_ratio, dbm_from_w
 
 ALPHA, LOSS_DB, DEVIATION_DB = 2.4, 6.0, 4.0
 TRUTH = [

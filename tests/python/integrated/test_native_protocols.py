@@ -8,10 +8,10 @@ from gradysim.integrated.run import IntegratedRun, run
 from gradysim.protocol.errors import NativeProtocolError
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.native_protocols import native_protocols
-from gradysim.scenario.parameters import parameters_of
-from gradysim.scenario.protocols import ProtocolLoader
+from gradysim.scenario.parse.expressions import parse_value
+from gradysim.scenario.schema.native_protocols import native_protocols
+from gradysim.scenario.schema.parameters import parameters_of
+from gradysim.scenario.schema.protocols import ProtocolLoader
 from gradysim.simulator.handler.assertion import AssertionHandler, assert_always_true_for_protocol
 from python.integrated.watching import Watching
 

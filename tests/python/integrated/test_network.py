@@ -14,7 +14,7 @@ from gradysim.integrated.network import (
 )
 from gradysim.scenario import Scenario
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.values import Setting
 
 
 def setting(value, key="key"):

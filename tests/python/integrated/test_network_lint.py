@@ -8,10 +8,10 @@ import pytest
 from gradysim.integrated.network_lint import UnreadLines, lint_networks
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import Source
-from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import Finding
-from gradysim.scenario.models import Chosen, unmet_choice
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
+from gradysim.scenario.resolve.models import Chosen, unmet_choice
 from python.thorough import some
 
 CONFIGS = Path(__file__).parents[3] / "configs"

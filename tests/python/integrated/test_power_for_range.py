@@ -10,8 +10,8 @@ from gradysim.integrated.network import medium_config, node_config
 from gradysim.integrated.power_for_range import MESSAGE_BYTES, RATIO, PowersForRanges
 from gradysim.integrated.run import run
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.keys import engine_key
 from gradysim.scenario.scenario import Scenario
+from gradysim.scenario.schema.keys import engine_key
 from python.integrated.fading_link import link
 
 RANGE = "**.wlan[*].radio.transmitter.communicationRange = 150m"

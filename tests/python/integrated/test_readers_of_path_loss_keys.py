@@ -5,8 +5,8 @@ import pytest
 pytest.importorskip("gradysim._netsim", reason="the compiled part is not installed")
 
 from gradysim._netsim import MediumConfig, Propagation
-from gradysim.scenario.keys import PATH_LOSS_KEYS
-from gradysim.scenario.schema import Key
+from gradysim.scenario.schema.engine_keys import Key
+from gradysim.scenario.schema.keys import PATH_LOSS_KEYS
 
 TYPENAME, *KEYS_OF_PARAMETERS = PATH_LOSS_KEYS
 MODELS = TYPENAME.kind.names

@@ -6,8 +6,8 @@ import pytest
 from gradysim.integrated.compiled_part import load_netsim
 from gradysim.integrated.run import IntegratedRun, run
 from gradysim.scenario.errors import BadValue
-from gradysim.scenario.expressions import parse_value
-from gradysim.scenario.options import OPTIONS
+from gradysim.scenario.parse.expressions import parse_value
+from gradysim.scenario.schema.options import OPTIONS
 
 PACKETS = '    def handle_packet(self, message): raise RuntimeError("spoilt")'
 

@@ -14,7 +14,7 @@ from gradysim.plots import new_figure, save_figure
 from gradysim.plots.figure import COLORS
 from gradysim.results import Runs
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.runs import hash_of
+from gradysim.scenario.resolve.runs import hash_of
 from python.cli.command import disk_of
 
 HEARD = "uavs[*] heard"

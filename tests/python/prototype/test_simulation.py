@@ -6,9 +6,9 @@ import pytest
 from gradysim.prototype.run import run
 from gradysim.prototype.simulation import build_simulation, communication_handler, mobility_handler
 from gradysim.scenario.errors import ConfigError, Source
-from gradysim.scenario.keys import ARDUPILOT, MOBILITY_KEYS
 from gradysim.scenario.scenario import CommunicationMediumSpec
-from gradysim.scenario.values import Setting
+from gradysim.scenario.schema.keys import ARDUPILOT, MOBILITY_KEYS
+from gradysim.scenario.schema.values import Setting
 from python.recorded_protocols import COUNTER, EARLY, FLYING, vectors_of
 
 TYPENAME = next(key for key in MOBILITY_KEYS if key.path == "mobility.typename")

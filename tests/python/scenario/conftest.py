@@ -7,7 +7,7 @@ import pytest
 
 from gradysim.scenario import Scenario, load_scenarios
 from gradysim.scenario.errors import ConfigError
-from gradysim.scenario.patterns import Pattern
+from gradysim.scenario.parse.patterns import Pattern
 
 PROTOCOLS = """
 from gradysim.protocol.interface import IProtocol

@@ -8,7 +8,7 @@ import pytest
 from gradysim.scenario import load_scenarios
 from gradysim.scenario.errors import ConfigError
 from gradysim.scenario.explain import Explanation, explain
-from gradysim.scenario.resolution import network_schemas, node_schema, protocol_schema
+from gradysim.scenario.resolve.resolution import network_schemas, node_schema, protocol_schema
 
 CONFIGS = Path(__file__).parents[3] / "configs"
 POWER = "uavs[1].wlan[0].radio.transmitter.power"

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from gradysim.scenario.protocols import imported_files, root_of_module
+from gradysim.scenario.schema.protocols import imported_files, root_of_module
 
 
 def files(root: Path, **texts: str) -> set[str]:

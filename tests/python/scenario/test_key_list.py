@@ -1,8 +1,8 @@
 import pytest
 
 from gradysim.scenario.key_list import KeyRow, key_meant, key_sections, matching
-from gradysim.scenario.keys import NETWORK_KEYS, NODE_KEYS
-from gradysim.scenario.schema import HAS_TO_BE_GIVEN
+from gradysim.scenario.schema.engine_keys import HAS_TO_BE_GIVEN
+from gradysim.scenario.schema.keys import NETWORK_KEYS, NODE_KEYS
 
 
 def row(end: str) -> KeyRow:

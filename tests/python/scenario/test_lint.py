@@ -9,7 +9,6 @@ import pytest
 
 from gradysim.prototype.run import PrototypeRun
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.ini import read_ini
 from gradysim.scenario.lint import (
     Finding,
     _unit_other_than_time,
@@ -21,7 +20,8 @@ from gradysim.scenario.lint import (
     shadowed_lines,
     unread_variables,
 )
-from gradysim.scenario.sections import search_order
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import search_order
 from python.scenario.conftest import BASE
 
 Write = Callable[..., Path]

@@ -4,12 +4,13 @@ from typing import Any
 
 import pytest
 
-from gradysim.scenario import ConfigError, load_scenarios, networks
+from gradysim.scenario import ConfigError, load_scenarios
+from gradysim.scenario.build import networks
+from gradysim.scenario.build.networks import build_network
 from gradysim.scenario.errors import OF_SCRIPT, ConfigErrors
 from gradysim.scenario.load import Study
-from gradysim.scenario.networks import build_network
+from gradysim.scenario.resolve.unknown_keys import NoSuchNodeError
 from gradysim.scenario.scenario import CommunicationMediumSpec, Scenario
-from gradysim.scenario.unknown_keys import NoSuchNodeError
 from python.calls import count_calls
 from python.scenario.conftest import BASE
 from python.thorough import some

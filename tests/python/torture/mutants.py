@@ -11,8 +11,8 @@ from types import FrameType
 
 from gradysim.cli.check import check_config
 from gradysim.scenario.errors import ConfigError, ErrorCollector
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
 from python.torture.mutant_files import ROOT, SOURCES, mutant
 
 MOST_CPU_S = 20

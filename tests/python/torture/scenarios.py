@@ -5,7 +5,7 @@ from random import Random
 
 from gradysim.integrated.run import run
 from gradysim.scenario import load_scenarios
-from gradysim.scenario.keys import engine_key
+from gradysim.scenario.schema.keys import engine_key
 
 PATH_LOSSES = engine_key("medium.path_loss").kind.names
 RATE_CONTROLS = engine_key("mac.rate_control").kind.names

@@ -7,7 +7,7 @@ from random import Random
 
 from gradysim.cli.interrupt import STOPPING
 from gradysim.results.files import read_run_file
-from gradysim.scenario.runs import hash_of
+from gradysim.scenario.resolve.runs import hash_of
 from python.torture.study import OUT, assert_resume_completes, begin, content_of, end_of, prepare, undisturbed
 
 

@@ -19,7 +19,7 @@ from hypothesis.stateful import RuleBasedStateMachine, rule, run_state_machine_a
 from gradysim.cli.errors import MISTAKE, OK
 from gradysim.results.files import bytes_of, is_run_file
 from gradysim.results.result_dir import result_names
-from gradysim.scenario.runs import hash_of
+from gradysim.scenario.resolve.runs import hash_of
 from python.torture.bad_disk import FAULTS, POWER, SIGNALS, BadDisk
 from python.torture.study import OUT, content_of_result, prepare
 

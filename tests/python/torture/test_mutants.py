@@ -14,8 +14,8 @@ import pytest
 
 from gradysim.cli.check import check_config
 from gradysim.scenario.errors import ErrorCollector
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.sections import config_names
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
 from python.thorough import some
 from python.torture.mutant_files import ROOT
 from python.torture.mutants import check_mutant, link_sources

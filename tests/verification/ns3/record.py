@@ -15,9 +15,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from gradysim.scenario import Scenario
-from gradysim.scenario.ini import read_ini
-from gradysim.scenario.sections import config_names
-from gradysim.scenario.values import Setting
+from gradysim.scenario.parse.ini import read_ini
+from gradysim.scenario.parse.sections import config_names
+from gradysim.scenario.schema.values import Setting
 from verification.reference_run import FOLDER, load_reference
 
 SOURCE = Path(__file__).with_name("stations.cpp")

@@ -1,0 +1,1 @@
+"""Scenarios, built from rows."""

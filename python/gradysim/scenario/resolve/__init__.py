@@ -1,0 +1,1 @@
+"""Runs, and the rows of each: which line sets which parameter."""
