@@ -1,21 +1,39 @@
 #include "netsim/phy/radio.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "netsim/error.hpp"
+#include "netsim/phy/receiver_options.hpp"
+
+// GCC warns of offsetof in classes with virtual functions, but computes it.
+#pragma GCC diagnostic ignored "-Winvalid-offsetof"
 
 namespace netsim {
 
 Radio::Radio(InterfaceId interface, std::shared_ptr<const RadioModel> model, double tx_power_w,
              const Trajectory& trajectory, const Attitude& attitude, PpduFormats formats)
-    : stream_(interface.stream()), model_(*model), tx_power_w_(tx_power_w), owned_model_(std::move(model)) {
+    : has_options_(ReceiverOptions::are_on(*model)),
+      stream_(interface.stream()),
+      model_(*model),
+      tx_power_w_(tx_power_w),
+      owned_model_(std::move(model)),
+      options_(has_options_ ? std::make_unique<ReceiverOptions>(*this) : nullptr) {
     id_ = medium().attach(interface,
                           Receiver{this,
                                    &trajectory,
                                    {model_.band, model_.sensitivity_w, model_.energy_detection_w,
                                     model_.reception.noise_w, model_.preamble_detection.duration(), formats}},
                           MountedAntenna{model_.antenna.get(), attitude, model_.antenna_offset});
+    // The compiler uses the padding of present_.
+    static_assert(offsetof(Radio, id_) == cache_line_bytes);
+}
+
+Radio::~Radio() = default;
+
+bool Radio::is_receiving_data() const {
+    return is_receiving() && !(has_options_ && options_->awaits_header());
 }
 
 void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int psdu_bytes, const Mode& mode,
@@ -24,9 +42,7 @@ void Radio::transmit(std::shared_ptr<const Frame> frame, FrameLabel label, int p
     give_up_reception();
     transmitting_ = true;
     turned_ = false;
-    if (watches_channel() && may_ignore_energy()) {  // while it transmits, its channel is busy anyway
-        medium().stop_watching_energy(id_);
-    }
+    stop_watching_energy();  // while it transmits, its channel is busy anyway
     Transmission transmission;
     transmission.sender = interface();
     transmission.radio = id_;
@@ -54,17 +70,18 @@ void Radio::turn_to_transmit() {
 }
 
 void Radio::give_up_reception() {
-    drop_candidates(FrameOutcome::receiver_transmitting);
+    if (has_options_) {
+        options_->give_up(FrameOutcome::receiver_transmitting);
+    }
     if (present_.is_locked()) {
-        simulator().cancel(header_end_);
         book(present_.unlock(), FrameOutcome::receiver_transmitting);
     }
 }
 
 void Radio::transmission_over() {
     listener_->transmission_ended();
-    if (watches_channel() && may_ignore_energy()) {  // before its channel could be found free
-        medium().watch_energy(id_, simulator().now());
+    if (watches_channel()) {  // before its channel could be found free
+        watch_energy(simulator().now());
     }
     transmitting_ = false;
     update_busy();
@@ -74,17 +91,13 @@ void Radio::arrival_started(const Arrival& arrival) {
     present_.add({arrival.transmission, arrival.power_w});
     if (arrival.lockable) {
         if (transmitting_ || turned_) {
-            ignores_energy_ = false;
+            if (has_options_) {
+                options_->missed_a_frame();
+            }
             book(*arrival.transmission, FrameOutcome::receiver_transmitting);
         } else if (!present_.is_locked()) {
             begin_reception(arrival);
-        } else if (model_.frame_capture.captures(locked_arrival_, arrival)) {
-            simulator().cancel(header_end_);
-            book(present_.unlock(), FrameOutcome::captured);
-            listener_->frame_corrupted({});
-            begin_reception(arrival);
-        } else {
-            began_in_header_ = began_in_header_ || is_receiving_header();
+        } else if (!has_options_ || !options_->captures(arrival)) {
             book(*arrival.transmission, FrameOutcome::receiver_locked);
         }
     }
@@ -92,80 +105,11 @@ void Radio::arrival_started(const Arrival& arrival) {
 }
 
 void Radio::begin_reception(const Arrival& arrival) {
-    if (!detects_preambles()) {
-        lock_on(arrival);
-        return;
+    if (has_options_) {
+        options_->begin_reception(arrival);
+    } else {
+        present_.lock_on(arrival.transmission);
     }
-    candidates_.push_back({arrival, simulator().schedule_after(model_.preamble_detection.duration(),
-                                                               [this, transmission = arrival.transmission] {
-                                                                   end_detection(transmission);
-                                                               })});
-}
-
-void Radio::end_detection(const Transmission* transmission) {
-    const auto ended = candidate_of(transmission);
-    NETSIM_ASSERT(ended != candidates_.end());
-    const Arrival arrival = ended->arrival;
-    candidates_.erase(ended);
-    ignores_energy_ = false;
-    const bool is_strongest = std::ranges::none_of(
-        candidates_, [&arrival](const Candidate& other) { return other.arrival.power_w > arrival.power_w; });
-    const auto snir = [&] {
-        const auto& steps = interference_in(arrival, {arrival.start, simulator().now()}).steps();
-        return model_.reception.snir(arrival, steps.back().power_w);
-    };
-    if (!is_strongest || !model_.preamble_detection.detects(arrival.power_w, snir())) {
-        if (medium().outcomes().observer() != nullptr) {
-            tell_loss(arrival, FrameOutcome::preamble_undetected,
-                      &interference_in(arrival, {arrival.start, simulator().now()}));
-        }
-        book(*transmission, FrameOutcome::preamble_undetected);
-        update_busy();
-        return;
-    }
-    drop_candidates(FrameOutcome::receiver_locked);
-    lock_on(arrival);
-    update_busy();
-}
-
-std::vector<Radio::Candidate>::iterator Radio::candidate_of(const Transmission* transmission) {
-    return std::ranges::find(candidates_, transmission,
-                             [](const Candidate& candidate) { return candidate.arrival.transmission; });
-}
-
-void Radio::drop_candidates(FrameOutcome outcome) {
-    if (!detects_preambles()) {
-        return;
-    }
-    for (const Candidate& candidate : candidates_) {
-        simulator().cancel(candidate.detection);
-        book(*candidate.arrival.transmission, outcome);
-    }
-    candidates_.clear();
-}
-
-void Radio::lock_on(const Arrival& arrival) {
-    present_.lock_on(arrival.transmission);
-    began_in_header_ = false;
-    if (model_.frame_capture.is_on() || model_.by_chunks) {
-        locked_arrival_ = arrival;
-    }
-    if (model_.by_chunks) {
-        const SimTime end = std::max(period_of(FramePart::header, arrival).end, simulator().now());
-        header_end_ = simulator().schedule_at(end, [this] { end_header(); });
-    }
-}
-
-void Radio::end_header() {
-    InterferenceSum* interference = nullptr;
-    if (header_survives(interference)) {
-        return;
-    }
-    add_to_fingerprint(present_.unlock(), FrameOutcome::header_error);
-    book_loss(locked_arrival_, FrameOutcome::header_error, interference);
-    listener_->frame_corrupted({.header_lost = true});
-    ignores_energy_ = model_.preamble_detection.frees_channel() && !began_in_header_;
-    update_busy();
 }
 
 void Radio::arrival_ended(const Arrival& arrival) {
@@ -183,11 +127,8 @@ void Radio::arrival_ended(const Arrival& arrival) {
         return;
     }
     present_.remove(arrival.transmission);
-    if (is_candidate(arrival.transmission)) {
-        const auto undetected = candidate_of(arrival.transmission);
-        simulator().cancel(undetected->detection);
-        candidates_.erase(undetected);
-        book(*arrival.transmission, FrameOutcome::preamble_undetected);
+    if (has_options_) {
+        options_->arrival_ended(arrival);
     }
     update_busy();
 }
@@ -201,7 +142,7 @@ void Radio::end_reception(const Arrival& arrival) {
     const Transmission& transmission = *arrival.transmission;
     InterferenceSum* interference = nullptr;
     const FrameOutcome outcome =
-        model_.by_chunks ? decide_data(arrival, interference) : decide_at_once(arrival, interference);
+        model_.by_chunks ? options_->decide_data(arrival, interference) : decide(arrival, interference);
     const bool decoded = outcome == FrameOutcome::delivered;
     add_to_fingerprint(transmission, outcome);
     if (is_observed_) {
@@ -219,7 +160,7 @@ void Radio::end_reception(const Arrival& arrival) {
 
 // One random number decides both cases, with and without interference. A frame counts as lost to
 // noise if it would be lost without interference by the same number.
-FrameOutcome Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cause) {
+FrameOutcome Radio::decide(const Arrival& arrival, InterferenceSum*& cause) {
     // In a large network, some transmission is always on the air, usually far away. Then a bound of
     // the interference suffices, usually even without drawing the number.
     const double systems_w = other_systems_w(arrival);
@@ -246,39 +187,6 @@ FrameOutcome Radio::decide_at_once(const Arrival& arrival, InterferenceSum*& cau
         return FrameOutcome::interference;
     }
     return FrameOutcome::noise;
-}
-
-FrameOutcome Radio::decide_data(const Arrival& arrival, InterferenceSum*& cause) {
-    if (simulator().cancel(header_end_)) {  // the frame ends with its header
-        if (!header_survives(cause)) {
-            return FrameOutcome::header_error;
-        }
-        cause = nullptr;
-    }
-    const double draw = this->draw();
-    const Period period = period_of(FramePart::data, arrival);
-    InterferenceSum& interference = interference_in(arrival, period);
-    if (draw < model_.reception.success(FramePart::data, arrival, interference)) {
-        return FrameOutcome::delivered;
-    }
-    InterferenceSum systems;
-    systems.begin(period.start, period.end);
-    medium().other_systems().add_to(systems, stream_, period.start, period.end);
-    if (draw < model_.reception.success(FramePart::data, arrival, systems)) {
-        cause = &interference;
-        return FrameOutcome::interference;
-    }
-    return FrameOutcome::noise;
-}
-
-bool Radio::is_receiving_header() const {
-    return model_.preamble_detection.frees_channel() && simulator().is_pending(header_end_) &&
-           simulator().now() >= period_of(FramePart::header, locked_arrival_).start;
-}
-
-bool Radio::header_survives(InterferenceSum*& interference) {
-    interference = &interference_in(locked_arrival_, period_of(FramePart::header, locked_arrival_));
-    return draw() < model_.reception.success(FramePart::header, locked_arrival_, *interference);
 }
 
 void Radio::add_to_fingerprint(const Transmission& transmission, FrameOutcome outcome) {
@@ -333,14 +241,14 @@ void Radio::tell_loss(const Arrival& arrival, FrameOutcome outcome, Interference
 
 void Radio::update_busy() {
     bool busy = transmitting_ || reports_ || present_.is_locked();
-    if (!busy && !present_.empty() && !ignores_energy_) {
+    if (!busy && !present_.empty() && !(has_options_ && options_->ignores_energy())) {
         double energy_w = model_.reception.noise_w;
         busy = energy_w >= model_.energy_detection_w;
         for (const PresentArrival& present : present_.all()) {
             if (busy) {  // more arrivals cannot change that
                 break;
             }
-            if (!is_candidate(present.transmission)) {
+            if (!has_options_ || !options_->is_in_detection(present.transmission)) {
                 energy_w += present.power_w;
                 busy = energy_w >= model_.energy_detection_w;
             }

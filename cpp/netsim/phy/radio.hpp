@@ -13,21 +13,13 @@
 // transmit aborts a reception. Without capture, all other frames are interference while the radio
 // is locked on to one.
 //
-// That is the default. Receiver options add steps between LISTENING and the end of a frame:
-//
-//                   arrival ≥ sensitivity                 preamble detected (phy/preamble_detection.hpp)
-//        LISTENING -----------------------> DETECTING ------------------------------------------------> LOCKED
-//          ^  ^  ^                           |  ^                                                      |  |  |
-//          |  |  +------ not detected -------+  +---- stronger arrival (phy/frame_capture.hpp) --------+  |  |
-//          |  +--------- PHY header lost, or the end of the arrival (SNIR by chunks: phy/reception.hpp) --+  |
-//          +------------ end of the arrival locked on -------------------------------------------------------+
-//
-// In DETECTING, the energy of a frame does not count yet, since sensing takes as long. Without
-// preamble detection, both arrows to DETECTING lead to LOCKED.
+// That is the default. Receiver options add steps between LISTENING and the end of a frame
+// (phy/receiver_options.hpp).
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "netsim/kernel/prefetch.hpp"
 #include "netsim/kernel/random.hpp"
@@ -39,6 +31,8 @@
 #include "netsim/phy/radio_observer.hpp"
 
 namespace netsim {
+
+class ReceiverOptions;  // phy/receiver_options.hpp
 
 // How a frame that a radio was locked on to was lost.
 struct CorruptedFrame {
@@ -80,6 +74,7 @@ public:
           PpduFormats formats = PpduFormats::all());
     Radio(const Radio&) = delete;
     Radio& operator=(const Radio&) = delete;
+    ~Radio();
 
     void set_listener(RadioListener& listener) { listener_ = &listener; }
     // Sets the observer of all frames sent and received from now on; null for none.
@@ -90,6 +85,7 @@ public:
     InterfaceId interface() const { return InterfaceId::of_stream(stream_); }
     NodeId node() const { return interface().node; }
     RadioId id() const { return id_; }
+    Simulator& simulator() const { return medium().simulator(); }
 
     // Starts the turnaround to transmit mode: frames that arrive before the end of the next
     // transmission are not received. Only while not transmitting.
@@ -104,13 +100,10 @@ public:
     // made it busy only together count only after `since`.
     SimTime watch_channel(SimTime since) {
         watch_ = ChannelWatch::watching;
-        return std::max(free_since_, may_ignore_energy() && !transmitting_ ? medium().watch_energy(id_, since)
-                                                                           : SimTime::long_ago());
+        return std::max(free_since_, transmitting_ ? SimTime::long_ago() : watch_energy(since));
     }
     void stop_watching_channel() {
-        if (watches_channel() && may_ignore_energy()) {
-            medium().stop_watching_energy(id_);
-        }
+        stop_watching_energy();
         watch_ = ChannelWatch::off;
     }
     // Reports the channel state again, if it is not watched, but without frames that make it busy only together.
@@ -135,7 +128,7 @@ public:
     bool is_transmitting() const { return transmitting_; }
     bool is_receiving() const { return present_.is_locked(); }
     // The same without the PHY header, where that is decided separately (SNIR by chunks).
-    bool is_receiving_data() const { return is_receiving() && !simulator().is_pending(header_end_); }
+    bool is_receiving_data() const;
     // Whether the radio transmits, is locked on to a frame, or noise and all arrivals together reach
     // the ED threshold.
     bool is_channel_busy() const { return busy_; }
@@ -144,40 +137,30 @@ public:
     void arrival_ended(const Arrival& arrival) override;
 
 private:
-    struct Candidate {  // a frame in preamble detection
-        Arrival arrival;
-        EventHandle detection;
-    };
+    friend class ReceiverOptions;  // a part of the radio in a file of its own
 
     Medium& medium() const { return model_.medium; }
-    Simulator& simulator() const { return medium().simulator(); }
-    bool detects_preambles() const { return model_.preamble_detection.is_on(); }
-    // With preamble detection, the radio's sums leave out frames in detection, which the medium does
-    // not know. So the radio always watches its energy.
-    bool may_ignore_energy() const { return !detects_preambles(); }
-    void begin_reception(const Arrival& arrival);
-    std::vector<Candidate>::iterator candidate_of(const Transmission* transmission);
-    bool is_candidate(const Transmission* transmission) {
-        return detects_preambles() && candidate_of(transmission) != candidates_.end();
+    // Energy of frames that make the channel busy only together. With preamble detection, the radio's
+    // sums leave out frames in detection, which the medium does not know. So the radio always watches it.
+    bool may_ignore_energy() const { return !model_.preamble_detection.is_on(); }
+    SimTime watch_energy(SimTime since) {
+        return may_ignore_energy() ? medium().watch_energy(id_, since) : SimTime::long_ago();
     }
-    void end_detection(const Transmission* transmission);
-    void drop_candidates(FrameOutcome outcome);
-    void lock_on(const Arrival& arrival);
+    void stop_watching_energy() {
+        if (watches_channel() && may_ignore_energy()) {
+            medium().stop_watching_energy(id_);
+        }
+    }
+    void begin_reception(const Arrival& arrival);
     void give_up_reception();
-    void end_header();
     void end_reception(const Arrival& arrival);
     void end_report();
     double draw() { return RandomStream(model_.seed, stream_, Purpose::reception, drawn_++).uniform(); }
-    // Both draw random numbers, and set `cause` only if the frame was lost to interference.
-    FrameOutcome decide_at_once(const Arrival& arrival, InterferenceSum*& cause);
-    FrameOutcome decide_data(const Arrival& arrival, InterferenceSum*& cause);
+    // Draws a random number, and sets `cause` only if the frame was lost to interference.
+    FrameOutcome decide(const Arrival& arrival, InterferenceSum*& cause);
     void book_loss(const Arrival& arrival, FrameOutcome outcome, InterferenceSum* interference);
-    // Fills in the interference with the header. Valid until the medium is asked for another one.
-    bool header_survives(InterferenceSum*& interference);
     // Tells the observer of a loss, if there is one. `interference` may be null.
     void tell_loss(const Arrival& arrival, FrameOutcome outcome, InterferenceSum* interference);
-    // Always false without PreambleDetection::frees_channel.
-    bool is_receiving_header() const;
     // Other frames and other systems.
     InterferenceSum& interference_in(const Arrival& arrival, Period period) {
         InterferenceSum& sum = medium().interference_with(id_, arrival, period.start, period.end);
@@ -201,8 +184,7 @@ private:
     bool busy_ : 1 = false;
     bool reports_ : 1 = false;  // while it reports the end of a frame: the channel counts as busy
     bool is_observed_ : 1 = false;
-    bool ignores_energy_ : 1 = false;   // PreambleDetection::frees_channel
-    bool began_in_header_ : 1 = false;  // another frame, while this radio received a header
+    const bool has_options_ : 1;
     ChannelWatch watch_ : 2 = ChannelWatch::watching;
     std::uint32_t stream_;  // of its interface (InterfaceId)
     const RadioModel& model_;
@@ -214,9 +196,7 @@ private:
     double tx_power_w_;
     RadioObserver* observer_ = nullptr;
     std::shared_ptr<const RadioModel> owned_model_;  // keeps model_ alive
-    Arrival locked_arrival_;                         // while locked on; set only for options that need it
-    std::vector<Candidate> candidates_;              // empty without preamble detection
-    EventHandle header_end_;                         // SNIR by chunks: pending until the header is decided
+    std::unique_ptr<ReceiverOptions> options_;       // null without options
 };
 
 }  // namespace netsim
