@@ -10,19 +10,18 @@
 namespace netsim {
 
 Dcf::Dcf(Radio& radio, std::shared_ptr<const DcfParameters> parameters, std::uint64_t seed)
-    : parameters_(*parameters),
-      radio_(radio),
+    : channel_(radio, *parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff), queue_,
+               *this),
       retry_(parameters->retry),
-      contention_(*parameters, RandomStream(seed, radio.interface().stream(), Purpose::backoff), *this),
       queue_(radio.node(), parameters->config.queue_capacity,
              parameters->config.queue_when_full == block_when_full),
+      parameters_(*parameters),
+      radio_(radio),
       owned_parameters_(std::move(parameters)),
       rate_control_(make_rate_control(parameters_.config, seed, radio.interface())),
       frames_by_mode_(parameters_.has_adaptive_rate ? parameters_.modes.modes().size() : 0),
       data_mode_(&parameters_.initial_mode) {
     radio_.set_listener(*this);
-    radio_.stop_watching_channel();
-    radio_.remember_channel(parameters_.longest_wait);
 }
 
 void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
@@ -45,10 +44,10 @@ void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
     if (queue_.has_one_in_front()) {
         report_blocking(true);
     }
-    watch_channel(simulator().now() - parameters_.longest_wait);
+    channel_.watch();
     if (exchange_ == Exchange::none) {
-        if (parameters_.config.skip_backoff_if_idle && !contention_.in_progress()) {
-            contention_.start_without_backoff_if_free(retry_.contention_window());
+        if (parameters_.config.skip_backoff_if_idle && !channel_.is_contending()) {
+            channel_.contend_without_backoff_if_free(retry_.contention_window());
         } else {
             contend_for_next();
         }
@@ -56,14 +55,14 @@ void Dcf::send(NodeId destination, Payload payload, CauseId cause) {
 }
 
 void Dcf::contend_for_next() {
-    if (!queue_.empty() && !contention_.in_progress()) {
-        contention_.start(retry_.contention_window());
+    if (!queue_.empty() && !channel_.is_contending()) {
+        channel_.contend(retry_.contention_window());
     }
 }
 
 void Dcf::channel_granted() {
     if (queue_.empty()) {  // end of the post-backoff
-        stop_watching_channel();
+        channel_.stop_watching();
         return;
     }
     NETSIM_ASSERT(exchange_ == Exchange::none && response_ == Response::none);
@@ -153,15 +152,11 @@ void Dcf::answer_timed_out() {
 }
 
 void Dcf::frame_received(const Transmission& transmission) {
-    if (last_frame_was_broken_) {
-        last_frame_was_broken_ = false;
-        contention_.frame_received();
-    }
-    keep_nav();
+    channel_.frame_received();
     const Frame& frame = *transmission.frame;
-    const bool for_this_station = frame.receiver == radio_.node();
-    if (!for_this_station && set_nav(frame.duration_field) && frame.kind == FrameKind::rts) {
-        reset_nav_after_rts(*transmission.mode);
+    const bool for_this_station = frame.receiver == channel_.node();
+    if (!for_this_station) {
+        channel_.frame_overheard(frame, *transmission.mode);
     }
     if (is_awaiting_answer()) {
         const FrameKind awaited = exchange_ == Exchange::awaiting_cts ? FrameKind::cts : FrameKind::ack;
@@ -192,7 +187,7 @@ void Dcf::answered() {
 }
 
 void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
-    if (frame.kind == FrameKind::rts && !is_nav_set()) {
+    if (frame.kind == FrameKind::rts && !channel_.is_nav_set()) {
         const Mode& cts_mode = parameters_.responses.to(mode);
         respond_after_sifs(make_cts(frame, parameters_.timing, cts_mode), cts_mode);
     } else if (frame.kind == FrameKind::unicast) {
@@ -204,15 +199,7 @@ void Dcf::addressed_here(const Frame& frame, const Mode& mode) {
 }
 
 void Dcf::frame_corrupted(CorruptedFrame frame) {
-    last_frame_was_broken_ = true;
-    others_are_weak_ = frame.others_are_weak;
-    if (!frame.header_lost) {
-        keep_nav();
-    }
-    if (!frame.header_lost || !parameters_.config.ns3_eifs) {
-        contention_.frame_corrupted();
-    }
-    radio_.report_channel();  // EIFS begins when the channel is free
+    channel_.frame_corrupted(frame);
     if (is_awaiting_answer() && !simulator().is_pending(answer_timeout_)) {
         attempt_failed();
     }
@@ -255,9 +242,9 @@ void Dcf::finish(MessageOutcome outcome) {
     attempts_ = 0;
     exchange_ = Exchange::none;
     if (!queue_.empty() || parameters_.config.skip_backoff_if_idle) {
-        contention_.start(retry_.contention_window());
+        channel_.contend(retry_.contention_window());
     }
-    stop_watching_channel();
+    channel_.stop_watching();
 }
 
 std::map<std::int64_t, std::uint64_t> Dcf::frames_by_bitrate() const {
@@ -272,106 +259,7 @@ std::map<std::int64_t, std::uint64_t> Dcf::frames_by_bitrate() const {
 
 void Dcf::own_frame_ended(const Frame& frame) {
     if (parameters_.config.own_frames_set_nav) {
-        set_nav(frame.duration_field);
-    }
-}
-
-bool Dcf::set_nav(SimTime duration) {
-    const SimTime end = simulator().now() + duration;
-    if (duration <= SimTime{} || end <= nav_end_) {
-        return false;
-    }
-    nav_end_ = end;
-    nav_sequence_number_ = simulator().reserve_sequence_numbers(1);
-    simulator().cancel(nav_event_);
-    if (radio_.watches_channel()) {
-        await_end_of_nav();
-        update_contention();
-    }
-    return true;
-}
-
-// Source: IEEE 802.11-2020, 10.3.2.4 (NAVTimeout).
-void Dcf::reset_nav_after_rts(const Mode& rts_mode) {
-    if (!parameters_.config.unanswered_rts_resets_nav) {
-        return;
-    }
-    const Mode& cts_mode = parameters_.responses.to(rts_mode);
-    const SimTime timeout = (parameters_.timing.sifs + parameters_.timing.slot) * 2 +
-                            cts_mode.duration(cts_bytes) + cts_mode.preamble + cts_mode.header;
-    awaits_frame_after_rts_ = true;
-    nav_reset_ = simulator().schedule_after(timeout, [this] { reset_nav(); });
-}
-
-void Dcf::reset_nav() {
-    awaits_frame_after_rts_ = false;
-    if (radio_.is_receiving_data() || !is_nav_set()) {
-        return;
-    }
-    nav_end_ = simulator().now();
-    simulator().cancel(nav_event_);
-    if (radio_.watches_channel()) {
-        update_contention();
-    }
-}
-
-// A frame followed the RTS.
-void Dcf::keep_nav() {
-    if (awaits_frame_after_rts_) {
-        awaits_frame_after_rts_ = false;
-        simulator().cancel(nav_reset_);
-    }
-}
-
-void Dcf::await_end_of_nav() {
-    nav_event_ =
-        simulator().schedule_reserved(nav_end_, nav_sequence_number_, [this] { update_contention(); });
-}
-
-void Dcf::channel_busy_changed(bool busy) {
-    if (!busy) {
-        const bool others_are_weak = std::exchange(others_are_weak_, false);
-        if (contention_.awaits_end_of_broken_frame() && !radio_.watches_channel() && !others_are_weak) {
-            watch_channel(simulator().now());
-            if (radio_.is_channel_busy()) {
-                return;
-            }
-        }
-        contention_.radio_finds_it_free();
-        stop_watching_channel();
-    }
-    if (radio_.watches_channel()) {
-        update_contention();
-    }
-}
-
-// Frames that the radio did not report may have made the channel busy since it was last watched.
-void Dcf::watch_channel(SimTime since) {
-    if (!radio_.watches_channel()) {
-        const SimTime radio_free_since = radio_.watch_channel(since);
-        contention_.channel_found(is_channel_busy(), std::max(radio_free_since, nav_end_));
-        if (is_nav_set()) {
-            await_end_of_nav();
-        }
-    }
-}
-
-void Dcf::stop_watching_channel() {
-    if (radio_.watches_channel()) {  // otherwise the queue is empty
-        if (!queue_.empty() || contention_.in_progress()) {
-            return;
-        }
-        simulator().cancel(nav_event_);
-    }
-    radio_.stop_watching_channel();
-    if (contention_.awaits_end_of_broken_frame()) {
-        radio_.report_channel();
-    }
-}
-
-void Dcf::update_contention() {
-    if (is_channel_busy() != contention_.finds_channel_busy()) {
-        contention_.channel_busy_changed(is_channel_busy());
+        channel_.set_nav(frame.duration_field);
     }
 }
 

@@ -35,7 +35,7 @@
 #include <vector>
 
 #include "netsim/kernel/prefetch.hpp"
-#include "netsim/mac/contention.hpp"
+#include "netsim/mac/channel_access.hpp"
 #include "netsim/mac/dcf_parameters.hpp"
 #include "netsim/mac/duplicate_filter.hpp"
 #include "netsim/mac/network_interface.hpp"
@@ -55,7 +55,7 @@ public:
     void send(NodeId destination, Payload payload, CauseId cause) override;
     void prefetch(int step) const override {
         if (step == 0) {
-            prefetch_before(*this, nav_sequence_number_);
+            prefetch_before(*this, owned_parameters_);
         }
         radio_.prefetch(step);
     }
@@ -77,11 +77,11 @@ private:
     };
     enum class Response : std::uint8_t { none, waiting_sifs, sending };
 
-    void channel_busy_changed(bool busy) override;
+    void channel_busy_changed(bool busy) override { channel_.radio_changed(busy); }
     void frame_received(const Transmission& transmission) override;
     void frame_corrupted(CorruptedFrame frame) override;
     void transmission_ended() override;
-    void prefetch_for_corrupted_frame() const override { netsim::prefetch(contention_); }
+    void prefetch_for_corrupted_frame() const override { channel_.prefetch_for_corrupted_frame(); }
     void channel_granted() override;
 
     Simulator& simulator() const { return parameters_.simulator; }
@@ -103,46 +103,22 @@ private:
     void contend_for_next();
     void addressed_here(const Frame& frame, const Mode& mode);
     void respond_after_sifs(Frame response, const Mode& mode);
-    bool is_nav_set() const { return nav_end_ > simulator().now(); }
     void own_frame_ended(const Frame& frame);
-    // Whether it ends later than before.
-    bool set_nav(SimTime duration);
-    // Unless a frame follows the RTS that set it.
-    void reset_nav_after_rts(const Mode& rts_mode);
-    void reset_nav();
-    void keep_nav();
-    bool is_channel_busy() const { return radio_.is_channel_busy() || is_nav_set(); }
-    void await_end_of_nav();
-    void update_contention();
-    // Frames that made the channel busy only together count only after `since`.
-    void watch_channel(SimTime since);
-    // No effect while there is a frame to send or a backoff to count down.
-    void stop_watching_channel();
     void transmit(std::shared_ptr<const Frame> frame, const Mode& mode);
 
     // The members that every received frame reads come first: one cache line, which the medium
     // prefetches.
-    const DcfParameters& parameters_;
-    Radio& radio_;
-    SimTime nav_end_ = SimTime::long_ago();
-    bool others_are_weak_ = false;  // of a corrupted frame, until its end frees the channel
-    // Contention is notified of a correct frame only if this is set, since it is in another cache line.
-    bool last_frame_was_broken_ = false;
-    bool awaits_frame_after_rts_ = false;  // nav_reset_ is pending
     Exchange exchange_ = Exchange::none;
     Response response_ = Response::none;
     int attempts_ = 0;  // failed attempts of the frame in progress that were on the air
+    ChannelAccess channel_;
 
-    // Then the members that sending a broadcast reads: three cache lines.
-    EventHandle nav_event_;  // pending while the channel is watched
-    Retry retry_;            // of the frame in progress
-    Contention contention_;
+    // Then the members that sending a broadcast reads: four cache lines with those of the channel.
+    Retry retry_;          // of the frame in progress
     TransmitQueue queue_;  // its frame in progress was granted the channel at least once
+    const DcfParameters& parameters_;
+    Radio& radio_;
 
-    EventHandle nav_reset_;  // pending after an RTS that set the NAV
-
-    // Of the event at the end of the NAV; reserved when the NAV was set.
-    SequenceNumber nav_sequence_number_ = 0;
     std::shared_ptr<const DcfParameters> owned_parameters_;  // keeps parameters_ alive
     std::unique_ptr<RateControl> rate_control_;
     // [mode index]: unicast frames sent; empty without adaptive rate control.
