@@ -9,10 +9,25 @@
 
 namespace netsim {
 
+namespace {
+
+BackoffMethod backoff_method_of(const std::string& name) {
+    constexpr Factory<BackoffMethod> methods[] = {
+        {"exponential", BackoffMethod::exponential},
+        {"linear", BackoffMethod::linear},
+        {"constant", BackoffMethod::constant},
+    };
+    static_assert(makes_all(methods, backoff_methods));
+    return factory_of(name, methods);
+}
+
+}  // namespace
+
 CsmaCa802154::CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed)
     : simulator_(simulator),
       radio_(radio),
       config_(config),
+      backoff_method_(backoff_method_of(config.backoff_method)),
       unit_backoff_(SimTime::from_seconds(config.unit_backoff_s)),
       cca_(SimTime::from_seconds(config.cca_s)),
       turnaround_(SimTime::from_seconds(config.turnaround_s)),
@@ -75,10 +90,10 @@ int CsmaCa802154::backoff_periods() {
     const auto draw_below = [this](int count) {
         return static_cast<int>(draws_.uniform_int(static_cast<std::uint32_t>(count)));
     };
-    if (config_.backoff_method == "exponential") {
+    if (backoff_method_ == BackoffMethod::exponential) {
         return draw_below(1 << std::min(config_.min_be + failed_assessments_, config_.max_be));
     }
-    const bool grows = config_.backoff_method == "linear";
+    const bool grows = backoff_method_ == BackoffMethod::linear;
     return 1 + draw_below(config_.contention_window + (grows ? failed_assessments_ : 0));
 }
 

@@ -44,6 +44,9 @@
 
 namespace netsim {
 
+// How the longest wait grows when the channel is busy (CsmaConfig::backoff_method).
+enum class BackoffMethod : std::uint8_t { exponential, linear, constant };
+
 class CsmaCa802154 final : public NetworkInterface, private RadioListener {
 public:
     CsmaCa802154(Simulator& simulator, Radio& radio, const CsmaConfig& config, std::uint64_t seed);
@@ -95,6 +98,7 @@ private:
     Simulator& simulator_;
     Radio& radio_;
     CsmaConfig config_;
+    BackoffMethod backoff_method_;
     SimTime unit_backoff_;
     SimTime cca_;
     SimTime turnaround_;

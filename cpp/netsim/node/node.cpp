@@ -1,6 +1,7 @@
 #include "netsim/node/node.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "netsim/error.hpp"
@@ -8,6 +9,9 @@
 #include "netsim/node/computer.hpp"
 #include "netsim/node/replay_recorder.hpp"
 #include "netsim/node/run_callback.hpp"
+
+// GCC warns of offsetof in classes with private members, but computes it.
+#pragma GCC diagnostic ignored "-Winvalid-offsetof"
 
 namespace netsim {
 
@@ -33,7 +37,10 @@ Node::Node(NetworkContext& context, const NodeConfig& config, NodeId id, std::ui
       random_(seed, static_cast<std::uint32_t>(id), Purpose::protocol),
       processing_time_(config.computer,
                        RandomStream(seed, static_cast<std::uint32_t>(id), Purpose::processing)),
-      command_delay_(SimTime::from_seconds(config.mobility.command_delay_s)) {}
+      command_delay_(SimTime::from_seconds(config.mobility.command_delay_s)) {
+    // The compiler uses the padding of timers_.
+    static_assert(offsetof(Node, observed_) == cache_line_bytes);
+}
 
 void Node::add_interface(std::unique_ptr<NetworkInterface> interface) {
     interface->set_listener(protocol_.get());
