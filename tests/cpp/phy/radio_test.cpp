@@ -228,6 +228,20 @@ TEST_F(RadioTest, WhatNoiseAloneWouldHaveLostIsLostToNoise) {
     EXPECT_TRUE(air.frame_outcomes.interferers_at(receiver.id()).empty());
 }
 
+// Then the MAC need not ask for energy that makes the channel busy only together.
+TEST_F(RadioTest, SaysOfACorruptedFrameWhetherTheOthersAreWeak) {
+    RadioConfig config;
+    config.snir_threshold = 2 * strong_w / MediumConfig().background_noise_w;
+    BareRadio& receiver = add_receiver(config);
+    arrives(add_sender(strong_w), us(10), us(100));
+    arrives(add_sender(strong_w), us(1010), us(100));
+    arrives(add_sender(strong_w), us(1020), us(100));
+    air.run();
+    ASSERT_EQ(receiver.log.corrupted.size(), 2U);
+    EXPECT_TRUE(receiver.log.corrupted[0].others_are_weak);
+    EXPECT_FALSE(receiver.log.corrupted[1].others_are_weak);
+}
+
 TEST_F(RadioTest, ItsOwnEarlierFrameIsNoInterference) {
     BareRadio& receiver = add_receiver();
     BareRadio& sender = add_sender(strong_w);
