@@ -5,7 +5,7 @@
 #include <string>
 
 #include "netsim/kernel/random.hpp"
-#include "netsim/node/protocols/beacon_protocol.hpp"
+#include "protocols/beacon_protocol.hpp"
 
 namespace {
 

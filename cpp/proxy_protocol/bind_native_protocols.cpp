@@ -6,7 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "netsim/node/protocols/native_protocols.hpp"
+#include "protocols/native_protocols.hpp"
 #include "proxy_protocol/bindings.hpp"
 
 namespace py = pybind11;

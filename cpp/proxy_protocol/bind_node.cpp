@@ -7,7 +7,7 @@
 #include <pybind11/stl.h>
 
 #include "netsim/node/node.hpp"
-#include "netsim/node/protocols/native_protocols.hpp"
+#include "protocols/native_protocols.hpp"
 #include "proxy_protocol/bindings.hpp"
 #include "proxy_protocol/node_commands.hpp"
 #include "proxy_protocol/python_protocol.hpp"

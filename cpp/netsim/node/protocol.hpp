@@ -1,7 +1,7 @@
 // The interface of a protocol in C++: the same five callbacks as in Python.
 //
 // A protocol reacts to events and acts through its Node (send, go_to, schedule_timer, …). The
-// Python proxy is one implementation; native protocols, in protocols/, are others. An exception
+// Python proxy is one implementation; native protocols (cpp/protocols) are others. An exception
 // thrown by a callback ends the run, usually as a ProtocolError.
 #pragma once
 

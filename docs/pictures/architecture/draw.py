@@ -50,7 +50,8 @@ CONTENTS = {
     "notebook": "tables and replays there",
     "installation": "check of installed files",
     "proxy_protocol": "bindings; Python protocols",
-    "node": "interfaces, native protocols",
+    "protocols": "native protocols",
+    "node": "life of a node, timers, commands",
     "mac": "DCF, CSMA/CA, rate control",
     "phy": "radio, reception, antennas",
     "medium": "which radios a frame reaches",
@@ -112,7 +113,7 @@ def picture() -> str:
     with matplotlib.rc_context(LOOK):
         figure, axes = pyplot.subplots(figsize=(7.6, 6.0))
         edges: dict[str, tuple[float, float]] = {}
-        packages, engine = python_layers(), engine_layers()
+        packages, engine = python_layers(), ["protocols", *engine_layers()]
         top = STEP * max(len(packages), len(engine) + 1)
         right = WIDTH + 1
         for number, names in enumerate(packages):
@@ -120,7 +121,7 @@ def picture() -> str:
         row(axes, right, top, ["proxy_protocol"], BLUE)
         for number, name in enumerate(engine):
             row(axes, right, top - (number + 1) * STEP, [name], GREEN)
-        for x, title in ((0, "python/gradysim"), (right, "cpp/proxy_protocol, cpp/netsim")):
+        for x, title in ((0, "python/gradysim"), (right, "cpp/proxy_protocol, protocols, netsim")):
             axes.text(x + WIDTH / 2, top + 0.8, title, ha="center", family="monospace", weight="bold")
         x, y = edges["integrated"]
         gap_y, arrow_y = y - STEP / 2, top + HEIGHT / 2

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "netsim/node/protocols/native_protocols.hpp"
+#include "protocols/native_protocols.hpp"
 #include "support/recorder.hpp"
 
 namespace netsim::test {

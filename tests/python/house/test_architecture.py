@@ -27,4 +27,4 @@ def test_the_drawing_is_up_to_date(drawing: ModuleType) -> None:
 
 def test_every_layer_has_a_box(drawing: ModuleType) -> None:
     layers = {name for names in drawing.python_layers() for name in names}
-    assert drawing.CONTENTS.keys() == layers | set(drawing.engine_layers()) | {"proxy_protocol"}
+    assert drawing.CONTENTS.keys() == layers | set(drawing.engine_layers()) | {"proxy_protocol", "protocols"}
