@@ -141,7 +141,7 @@ void CumulativeEnergyDetection::widen_zones(ActiveTransmission& here, const Acti
     if (!zones.is_too_narrow()) {
         return;
     }
-    const double watched_before_w = zones.min_power_w();
+    const double min_watched_w = zones.min_power_w();
     zones.widen();
     const double radius_m = zones.radius_m();
     here.zone_radius_m = std::max(here.zone_radius_m, radius_m);
@@ -152,9 +152,9 @@ void CumulativeEnergyDetection::widen_zones(ActiveTransmission& here, const Acti
     });
     // The largest bounds belong to the nearest transmissions, and are the loosest.
     std::ranges::sort(bounds_, std::greater(), &Bound::max_w);
-    double rest_w = 0;
+    double sum_w = 0;
     std::for_each(bounds_.rbegin(), bounds_.rend(),
-                  [&](Bound& bound) { rest_w = bound.rest_w = rest_w + bound.max_w; });
+                  [&](Bound& bound) { sum_w = bound.sum_w = sum_w + bound.max_w; });
     const double share = here.shares[index];
     const double moved_m = links_.displacement().total_m(simulator_.now()) - here.displacement_m;
     const double ed_radius_m = std::max(links_.ed_radius_m(sent, group) - moved_m, 0.0);
@@ -164,29 +164,28 @@ void CumulativeEnergyDetection::widen_zones(ActiveTransmission& here, const Acti
             continue;
         }
         ++evaluation_count_;
-        const double received_w = moved_m > 0 || !links_.displacement().all_stand()
-                                      ? active_transmissions_.arrival_at(here, radio).power_w
-                                      : links_.power_w(sent, share, radio, place,
-                                                       distance(sent.origin, place), zones.min_power_w());
-        if (received_w >= zones.min_power_w() && received_w < watched_before_w &&
-            !links_.receiver(radio).surely_exceeds_ed(received_w)) {
-            zones.watched().push_back({radio, place, headroom_by_bounds(radio, place, received_w)});
+        const double power_w = moved_m > 0 || !links_.displacement().all_stand()
+                                   ? active_transmissions_.arrival_at(here, radio).power_w
+                                   : links_.power_w(sent, share, radio, place, distance(sent.origin, place),
+                                                    zones.min_power_w());
+        if (power_w >= zones.min_power_w() && power_w < min_watched_w &&
+            !links_.receiver(radio).surely_exceeds_ed(power_w)) {
+            zones.watched().push_back({radio, place, headroom_by_bounds(radio, place, power_w)});
         }
     }
 }
 
 // Replaces bounds by exact powers, one after the other, until there is headroom.
-double CumulativeEnergyDetection::headroom_by_bounds(RadioId radio, const Position& place,
-                                                     double received_w) {
+double CumulativeEnergyDetection::headroom_by_bounds(RadioId radio, const Position& place, double power_w) {
     if (!timelines_.has(radio)) {
         const ReceiverParameters& receiver = links_.receiver(radio);
-        const double level_w = receiver.energy_detection_w * (1 - rounding_margin);
-        double known_w = receiver.noise_w + received_w;
+        const double threshold_w = receiver.energy_detection_w * (1 - rounding_margin);
+        double energy_w = receiver.noise_w + power_w;
         auto bound = bounds_.begin();
-        for (; bound != bounds_.end() && known_w + bound->rest_w >= level_w; ++bound) {
-            known_w += power_at(*bound->from, radio, place);
+        for (; bound != bounds_.end() && energy_w + bound->sum_w >= threshold_w; ++bound) {
+            energy_w += power_at(*bound->from, radio, place);
         }
-        const double headroom_w = level_w - (known_w + (bound == bounds_.end() ? 0 : bound->rest_w));
+        const double headroom_w = threshold_w - (energy_w + (bound == bounds_.end() ? 0 : bound->sum_w));
         if (headroom_w > 0) {
             return headroom_w;
         }
@@ -270,11 +269,11 @@ SimTime CumulativeEnergyDetection::watch(RadioId radio, SimTime since) {
     if (!may_be_in_watch_zone(place, since)) {
         return SimTime::long_ago();  // usually, all transmissions are far away
     }
-    const double max_w = find_recent(radio, place, since);
+    const double max_sum_w = find_recent(radio, place, since);
     if (std::ranges::none_of(recent_, &RecentSignal::is_in_watch_zone)) {
         return SimTime::long_ago();
     }
-    const bool was_busy = since < simulator_.now() && links_.receiver(radio).headroom_w(max_w) <= 0;
+    const bool was_busy = since < simulator_.now() && links_.receiver(radio).headroom_w(max_sum_w) <= 0;
     const SimTime over = was_busy ? last_busy_end(radio, place, since) : SimTime::long_ago();
     watch_recent(radio, place);
     return over;
@@ -301,11 +300,11 @@ double CumulativeEnergyDetection::find_recent(RadioId radio, const Position& pla
     const std::uint32_t group = links_.group_of(radio);
     // A signal of this power makes the channel busy alone. Larger terms would lose the others to
     // rounding when they are subtracted again.
-    const double enough_w = links_.receiver(radio).energy_detection_w;
+    const double threshold_w = links_.receiver(radio).energy_detection_w;
     recent_.clear();
     std::size_t first = 0;  // in recent_: the first signal that may overlap with the current one
     double sum_w = 0;
-    double max_w = 0;
+    double max_sum_w = 0;
     for (const std::unique_ptr<ActiveTransmission>& active : active_transmissions_.entries()) {
         const Transmission& sent = active->transmission;
         if (active->last_end <= since || active->shares[group] == 0 || sent.radio == radio) {
@@ -313,13 +312,13 @@ double CumulativeEnergyDetection::find_recent(RadioId radio, const Position& pla
         }
         const double power_w = power_at(*active, radio, place);
         recent_.push_back({active.get(), power_w, power_w >= active->zones[group].min_power_w()});
-        sum_w += std::min(power_w, enough_w);
+        sum_w += std::min(power_w, threshold_w);
         for (; recent_[first].active->last_end <= sent.start; ++first) {
-            sum_w -= std::min(recent_[first].power_w, enough_w);
+            sum_w -= std::min(recent_[first].power_w, threshold_w);
         }
-        max_w = std::max(max_w, sum_w);
+        max_sum_w = std::max(max_sum_w, sum_w);
     }
-    return max_w;
+    return max_sum_w;
 }
 
 // Adds the radio to the watch zones that contain it. Only transmissions in `recent_` that are still
@@ -335,11 +334,11 @@ void CumulativeEnergyDetection::watch_recent(RadioId radio, const Position& plac
                 has_ended(*recent.active, active_transmissions_.arrival_at(*recent.active, radio, place, now),
                           radio));
     });
-    double present_w = 0;
+    double sum_w = 0;
     for (const RecentSignal& recent : recent_) {
-        present_w += recent.power_w;
+        sum_w += recent.power_w;
     }
-    double headroom_w = here.headroom_w(present_w);
+    double headroom_w = here.headroom_w(sum_w);
     if (headroom_w <= 0) {
         headroom_w = headroom_before_next(radio, place);
     }
@@ -356,29 +355,29 @@ void CumulativeEnergyDetection::watch_recent(RadioId radio, const Position& plac
 double CumulativeEnergyDetection::headroom_before_next(RadioId radio, const Position& place) {
     const SimTime now = simulator_.now();
     const ReceiverParameters& here = links_.receiver(radio);
-    double present_w = 0;
-    double arrived_w = 0;
+    double sum_w = 0;
+    double arrived_sum_w = 0;
     SimTime next_start = SimTime::never();
-    std::size_t signal = 0;
+    std::size_t unarrived = 0;
     for (const RecentSignal& recent : recent_) {
         const Arrival arrival = active_transmissions_.arrival_at(*recent.active, radio, place, now);
         if (has_ended(*recent.active, arrival, radio)) {
             continue;
         }
-        present_w += arrival.power_w;
+        sum_w += arrival.power_w;
         if (simulator_.has_passed(arrival.start,
                                   recent.active->sequence_number(radio, ActiveTransmission::begins))) {
-            arrived_w += arrival.power_w;
+            arrived_sum_w += arrival.power_w;
         } else {
             next_start = std::min(next_start, arrival.start);
-            ++signal;
+            ++unarrived;
         }
     }
-    const double headroom_w = here.headroom_w(present_w);
+    const double headroom_w = here.headroom_w(sum_w);
     if (headroom_w > 0) {
         return headroom_w;
     }
-    if (next_start > now && here.headroom_w(arrived_w) > 0 && signal >= min_deferred) {
+    if (next_start > now && here.headroom_w(arrived_sum_w) > 0 && unarrived >= min_deferred) {
         evaluate_at(radio, just_before(next_start));
         return unknown_w;
     }

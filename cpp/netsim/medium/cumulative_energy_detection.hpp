@@ -2,6 +2,10 @@
 // exceeds the ED threshold alone, make the channel busy together. Only radios that watch their
 // channel take part. carrier_sense/README.md explains it with a drawing.
 //
+// Words, all in W: the power of one transmission at a receiver, a sum of powers, the energy (a sum
+// and the noise), the ED threshold of the receiver, and the headroom from the energy to the
+// threshold. `max_` is an upper bound.
+//
 // The medium calls it for each transmission that starts while others are on the air, and notifies
 // the affected radios.
 #pragma once
@@ -59,7 +63,7 @@ private:
     struct Bound {
         const ActiveTransmission* from = nullptr;
         double max_w = 0;
-        double rest_w = 0;  // sum of this bound and those after it
+        double sum_w = 0;  // of this bound and those after it
     };
     // A transmission that is or was on the air, at one receiver.
     struct RecentSignal {
@@ -106,9 +110,9 @@ private:
     double headroom_at(RadioId radio, const Position& place);
     // Calls headroom_at at that time, if the radio watches then.
     void evaluate_at(RadioId radio, SimTime time);
-    // The headroom of a radio that receives `received_w` from one transmission, and at most
+    // The headroom of a radio that receives `power_w` from one transmission, and at most
     // `bounds_` from the others.
-    double headroom_by_bounds(RadioId radio, const Position& place, double received_w);
+    double headroom_by_bounds(RadioId radio, const Position& place, double power_w);
     // Whether the radio was, or would have been, notified of the arrival's end.
     bool has_ended(const ActiveTransmission& active, const Arrival& arrival, RadioId radio) const {
         return simulator_.has_passed(arrival.end, active.sequence_number(radio, ActiveTransmission::ends));
